@@ -1,0 +1,32 @@
+// A file that appears whole or not at all: it is written beside its final name and renamed by commit().
+//
+// Errors: InputError when the folder does not exist or cannot be written, when the disk is full, or when the rename fails.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+namespace partwise {
+
+class AtomicFile {
+ public:
+  explicit AtomicFile(std::filesystem::path path);
+  ~AtomicFile();  // Without commit() the temporary file is removed and the old file, if any, stays.
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  std::ostream& stream() { return stream_; }
+  void commit();
+
+ private:
+  std::filesystem::path path_, temporary_;
+  std::ofstream stream_;
+  bool committed_ = false;
+};
+
+// Writes all bytes atomically.
+void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+}  // namespace partwise

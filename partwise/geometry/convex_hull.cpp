@@ -1,0 +1,138 @@
+#include "partwise/geometry/convex_hull.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+extern "C" {
+#include <libqhull_r/qhull_ra.h>
+}
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "partwise/base/error.h"
+
+namespace partwise {
+namespace {
+
+// Principal axes of the points, ascending by variance.
+Eigen::Matrix3d principal_axes(const Vertices& points) {
+  const Vertices centred = points.rowwise() - points.colwise().mean();
+  const Eigen::Matrix3d covariance = centred.transpose() * centred;
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors();
+}
+
+double extent(const Vertices& points, const Eigen::Vector3d& axis) {
+  const Eigen::VectorXd along = points * axis;
+  return along.maxCoeff() - along.minCoeff();
+}
+
+// Doubles the points along every principal axis in which they are thinner than the minimum.
+Vertices thicken(const Vertices& points, double minimum_thickness) {
+  const Eigen::Matrix3d axes = principal_axes(points);
+  Vertices thick = points;
+  for (int k = 0; k < 3; ++k) {
+    if (extent(points, axes.col(k)) >= minimum_thickness) continue;
+    const Point shift = axes.col(k).transpose() * (minimum_thickness / 2);
+    Vertices doubled(2 * thick.rows(), 3);
+    doubled << thick.rowwise() - shift, thick.rowwise() + shift;
+    thick = std::move(doubled);
+  }
+  return thick;
+}
+
+// Facets of the hull as corners into `points`, counter-clockwise from outside; empty when Qhull finds them flat.
+std::vector<std::array<int, 3>> qhull_facets(const Vertices& points) {
+  struct Session {
+    qhT qh;
+    Session() { qh_zero(&qh, nullptr); }
+    ~Session() {
+      qh_freeqhull(&qh, !qh_ALL);
+      int kept, bytes;
+      qh_memfreeshort(&qh, &kept, &bytes);
+    }
+  };
+  const auto session = std::make_unique<Session>();
+  qhT* qh = &session->qh;
+  static const std::unique_ptr<FILE, int (*)(FILE*)> silence(std::fopen("/dev/null", "w"), &std::fclose);
+  char options[] = "qhull Qt";
+  const int failed = qh_new_qhull(qh, 3, static_cast<int>(points.rows()), const_cast<double*>(points.data()), False,
+                                  options, nullptr, silence.get());
+  std::vector<std::array<int, 3>> facets;
+  if (failed) return facets;
+  facetT* facet;
+  FORALLfacets {
+    std::array<int, 3> corner{};
+    int k = 0;
+    vertexT *vertex, **vertexp;
+    FOREACHvertex_(facet->vertices) {
+      if (k < 3) corner[k] = qh_pointid(qh, vertex->point);
+      ++k;
+    }
+    PARTWISE_CHECK(k, ==, 3);
+    // Qhull's `toporient` tells the order of the vertices in the set.
+    if (facet->toporient == qh_ORIENTclock) std::swap(corner[0], corner[1]);
+    facets.push_back(corner);
+  }
+  return facets;
+}
+
+}  // namespace
+
+ConvexHull convex_hull(const Vertices& points, double minimum_thickness) {
+  if (points.rows() == 0) throw InputError("convex hull", "there are no points", "give at least one");
+  PARTWISE_CHECK(minimum_thickness, >, 0.0);
+  ConvexHull hull;
+  std::vector<std::array<int, 3>> facets;
+  if (points.rows() >= 4) {
+    const Eigen::Matrix3d axes = principal_axes(points);
+    if (extent(points, axes.col(0)) >= minimum_thickness) facets = qhull_facets(points);
+  }
+  Vertices thick;
+  hull.thickened = facets.empty();
+  if (hull.thickened) {
+    thick = thicken(points, minimum_thickness);
+    facets = qhull_facets(thick);
+    PARTWISE_CHECK(facets.size(), >=, 4u);
+  }
+  const Vertices& corners = hull.thickened ? thick : points;
+
+  std::vector<int> index(static_cast<std::size_t>(corners.rows()), -1);
+  std::vector<int> used;
+  for (const auto& f : facets)
+    for (int v : f)
+      if (index[v] < 0) index[v] = 0, used.push_back(v);
+  std::sort(used.begin(), used.end());
+  for (std::size_t i = 0; i < used.size(); ++i) index[used[i]] = static_cast<int>(i);
+  hull.mesh.vertices = corners(used, Eigen::all);
+  hull.mesh.faces.resize(static_cast<Eigen::Index>(facets.size()), 3);
+  for (std::size_t f = 0; f < facets.size(); ++f)
+    for (int k = 0; k < 3; ++k) hull.mesh.faces(static_cast<Eigen::Index>(f), k) = index[facets[f][k]];
+  hull.volume = signed_volume(hull.mesh);
+  if (hull.volume < 0) {
+    hull.mesh.faces.col(0).swap(hull.mesh.faces.col(1));
+    hull.volume = -hull.volume;
+  }
+  if (!hull.thickened) hull.source = std::move(used);
+  return hull;
+}
+
+Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> hull_planes(const Mesh& hull) {
+  Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> planes(hull.faces.rows(), 4);
+  Eigen::Index count = 0;
+  for (const auto& f : hull.faces.rowwise()) {
+    const Point a = hull.vertices.row(f[0]);
+    const Point normal = (hull.vertices.row(f[1]) - a).cross(hull.vertices.row(f[2]) - a);
+    const double length = normal.norm();
+    if (length == 0) continue;  // A sliver between three points of a line bounds nothing.
+    const Point unit = normal / length;
+    // The supporting plane: no vertex of the hull lies outside, whatever rounding did to the three corners.
+    const double offset = (hull.vertices * unit.transpose()).maxCoeff();
+    planes.row(count++) << unit, offset;
+  }
+  planes.conservativeResize(count, 4);
+  return planes;
+}
+
+}  // namespace partwise
