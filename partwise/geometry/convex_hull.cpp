@@ -114,7 +114,9 @@ ConvexHull convex_hull(const Vertices& points, double minimum_thickness) {
     hull.mesh.faces.col(0).swap(hull.mesh.faces.col(1));
     hull.volume = -hull.volume;
   }
-  if (!hull.thickened) hull.source = std::move(used);
+  // Thickening stacks whole copies of the points.
+  for (int& v : used) v %= static_cast<int>(points.rows());
+  hull.source = std::move(used);
   return hull;
 }
 
@@ -127,8 +129,8 @@ Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> hull_planes(const Mesh
     const double length = normal.norm();
     if (length == 0) continue;  // A sliver between three points of a line bounds nothing.
     const Point unit = normal / length;
-    // The supporting plane: no vertex of the hull lies outside, whatever rounding did to the three corners.
-    const double offset = (hull.vertices * unit.transpose()).maxCoeff();
+    // Of the three corners the outermost, whatever rounding did to the normal.
+    const double offset = std::max({unit.dot(a), unit.dot(hull.vertices.row(f[1])), unit.dot(hull.vertices.row(f[2]))});
     planes.row(count++) << unit, offset;
   }
   planes.conservativeResize(count, 4);

@@ -19,7 +19,7 @@ namespace partwise {
 
 struct ConvexHull {
   Mesh mesh;
-  std::vector<int> source;  // for each hull vertex its index among the points; empty when thickened
+  std::vector<int> source;  // for each hull vertex the index of the point that it is (thickened: was moved from)
   bool thickened = false;
   double volume = 0;
 };

@@ -1,0 +1,223 @@
+#include "partwise/geometry/surface_query.h"
+
+#include <Eigen/Geometry>
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "partwise/base/error.h"
+
+namespace partwise {
+namespace {
+
+// Squared distance from p to the triangle (a, b, c) (Ericson 2004, section 5.1.5).
+double squared_distance(const Point& p, const Point& a, const Point& b, const Point& c) {
+  const Point ab = b - a, ac = c - a, ap = p - a;
+  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
+  if (d1 <= 0 && d2 <= 0) return ap.squaredNorm();
+  const Point bp = p - b;
+  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
+  if (d3 >= 0 && d4 <= d3) return bp.squaredNorm();
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return (ap - d1 / (d1 - d3) * ab).squaredNorm();
+  const Point cp = p - c;
+  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
+  if (d6 >= 0 && d5 <= d6) return cp.squaredNorm();
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return (ap - d2 / (d2 - d6) * ac).squaredNorm();
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+    return (bp - (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b)).squaredNorm();
+  }
+  const double scale = 1 / (va + vb + vc);
+  return (ap - vb * scale * ab - vc * scale * ac).squaredNorm();
+}
+
+constexpr int kOpenDirections = 24;
+
+// Directions spread evenly over the sphere (a Fibonacci lattice), none parallel to an axis.
+std::array<Eigen::Vector3f, kOpenDirections> directions() {
+  std::array<Eigen::Vector3f, kOpenDirections> all;
+  for (int i = 0; i < kOpenDirections; ++i) {
+    const double z = 1 - (2 * i + 1.0) / kOpenDirections, around = 2.399963229728653 * i + 0.37;
+    const double r = std::sqrt(1 - z * z);
+    all[static_cast<std::size_t>(i)] = Eigen::Vector3d(r * std::cos(around), r * std::sin(around), z).cast<float>();
+  }
+  return all;
+}
+
+bool closed(const Mesh& mesh) {
+  // Every directed edge is met by its opposite: the sum over faces of hashed oriented edges cancels.
+  std::vector<std::pair<std::uint64_t, int>> edges;
+  edges.reserve(static_cast<std::size_t>(3 * mesh.faces.rows()));
+  for (const auto& f : mesh.faces.rowwise()) {
+    for (int k = 0; k < 3; ++k) {
+      const int a = f[k], b = f[(k + 1) % 3];
+      if (a == b) continue;
+      const auto [low, high] = std::minmax(a, b);
+      edges.emplace_back(static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint32_t>(high), a < b ? 1 : -1);
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t i = 0; i < edges.size();) {
+    int sum = 0;
+    std::size_t j = i;
+    for (; j < edges.size() && edges[j].first == edges[i].first; ++j) sum += edges[j].second;
+    if (sum != 0) return false;
+    i = j;
+  }
+  return true;
+}
+
+}  // namespace
+
+struct SurfaceQuery::Scene {
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  Vertices vertices;  // centred and scaled to about [-1, 1]
+  Faces faces;
+  std::vector<int> face_number;  // in the mesh that was given
+  Point centre;
+  double scale = 1;  // model units a unit of the scene
+  bool is_closed = false;
+  std::array<Eigen::Vector3f, kOpenDirections> directions;
+
+  ~Scene() {
+    if (scene) rtcReleaseScene(scene);
+    if (device) rtcReleaseDevice(device);
+  }
+};
+
+SurfaceQuery::SurfaceQuery(const Mesh& mesh) : scene_(std::make_unique<Scene>()) {
+  Scene& s = *scene_;
+  std::vector<int> keep;
+  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
+    const Point a = mesh.vertices.row(mesh.faces(f, 0));
+    if ((mesh.vertices.row(mesh.faces(f, 1)) - a).cross(mesh.vertices.row(mesh.faces(f, 2)) - a).squaredNorm() > 0) {
+      keep.push_back(static_cast<int>(f));
+    }
+  }
+  if (keep.empty()) throw InputError("mesh", "no face has an area", "give a mesh with at least one proper triangle");
+  s.faces = mesh.faces(keep, Eigen::all);
+  s.face_number = keep;
+  s.is_closed = closed(mesh);
+  const Sphere sphere = bounding_sphere(mesh);
+  s.centre = sphere.centre;
+  s.scale = sphere.radius;
+  s.vertices = (mesh.vertices.rowwise() - s.centre) / s.scale;
+  s.directions = directions();
+
+  s.device = rtcNewDevice("threads=1");  // One thread builds the hierarchy, so that it is the same one each time.
+  s.scene = rtcNewScene(s.device);
+  rtcSetSceneFlags(s.scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+  RTCGeometry geometry = rtcNewGeometry(s.device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                             3 * sizeof(float), static_cast<std::size_t>(s.vertices.rows())));
+  for (Eigen::Index i = 0; i < s.vertices.size(); ++i) vertex[i] = static_cast<float>(s.vertices.data()[i]);
+  auto* index = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                               3 * sizeof(unsigned), keep.size()));
+  for (Eigen::Index i = 0; i < s.faces.size(); ++i) index[i] = static_cast<unsigned>(s.faces.data()[i]);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(s.scene, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(s.scene);
+}
+
+SurfaceQuery::~SurfaceQuery() = default;
+SurfaceQuery::SurfaceQuery(SurfaceQuery&&) noexcept = default;
+SurfaceQuery& SurfaceQuery::operator=(SurfaceQuery&&) noexcept = default;
+
+double SurfaceQuery::distance(const Point& p, double at_most) const {
+  struct Nearest {
+    const Scene* scene;
+    Point p;
+    double squared;
+  };
+  const Scene& s = *scene_;
+  Nearest nearest{&s, (p - s.centre) / s.scale, 0};
+  const double limit = std::min(at_most / s.scale, 1e15);
+  nearest.squared = limit * limit;
+  RTCPointQuery query;
+  query.x = static_cast<float>(nearest.p.x());
+  query.y = static_cast<float>(nearest.p.y());
+  query.z = static_cast<float>(nearest.p.z());
+  query.time = 0;
+  // Wider than the exact distance by what rounding to float can take away.
+  query.radius = static_cast<float>(limit) * 1.000001f + 1e-6f;
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(
+      s.scene, &query, &context,
+      [](RTCPointQueryFunctionArguments* args) {
+        Nearest& best = *static_cast<Nearest*>(args->userPtr);
+        const auto face = best.scene->faces.row(args->primID);
+        const Vertices& v = best.scene->vertices;
+        const double squared = squared_distance(best.p, v.row(face[0]), v.row(face[1]), v.row(face[2]));
+        if (squared >= best.squared) return false;
+        best.squared = squared;
+        args->query->radius = static_cast<float>(std::sqrt(squared)) * 1.000001f + 1e-6f;
+        return true;
+      },
+      &nearest);
+  return std::min(at_most, std::sqrt(nearest.squared) * s.scale);
+}
+
+SurfaceQuery::Hit SurfaceQuery::first_hit(const Point& p, const Point& direction, double from) const {
+  const Scene& s = *scene_;
+  const Eigen::Vector3f origin = ((p - s.centre) / s.scale).cast<float>().transpose();
+  const Eigen::Vector3f along = direction.normalized().cast<float>().transpose();
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRayHit query;
+  query.ray.org_x = origin.x(), query.ray.org_y = origin.y(), query.ray.org_z = origin.z();
+  query.ray.dir_x = along.x(), query.ray.dir_y = along.y(), query.ray.dir_z = along.z();
+  query.ray.tnear = static_cast<float>(from / s.scale), query.ray.tfar = std::numeric_limits<float>::infinity();
+  query.ray.mask = 0xffffffffu, query.ray.flags = 0, query.ray.time = 0, query.ray.id = 0;
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(s.scene, &context, &query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+  return {s.face_number[query.hit.primID], static_cast<double>(query.ray.tfar) * s.scale};
+}
+
+double SurfaceQuery::winding_number(const Point& p) const {
+  struct Crossings {
+    RTCIntersectContext context;  // first, so that the filter finds the whole from it
+    int sum = 0;
+  };
+  const Scene& s = *scene_;
+  const Eigen::Vector3f origin = ((p - s.centre) / s.scale).cast<float>().transpose();
+  const auto count = [&](const Eigen::Vector3f& direction) {
+    Crossings crossings;
+    rtcInitIntersectContext(&crossings.context);
+    crossings.context.filter = [](const RTCFilterFunctionNArguments* args) {
+      const RTCHit* hit = reinterpret_cast<const RTCHit*>(args->hit);
+      const RTCRay* ray = reinterpret_cast<const RTCRay*>(args->ray);
+      const float along = hit->Ng_x * ray->dir_x + hit->Ng_y * ray->dir_y + hit->Ng_z * ray->dir_z;
+      auto* all = reinterpret_cast<Crossings*>(args->context);
+      all->sum += along > 0 ? 1 : along < 0 ? -1 : 0;
+      args->valid[0] = 0;  // Go on to the next face.
+    };
+    RTCRay ray;
+    ray.org_x = origin.x(), ray.org_y = origin.y(), ray.org_z = origin.z();
+    ray.dir_x = direction.x(), ray.dir_y = direction.y(), ray.dir_z = direction.z();
+    ray.tnear = 0, ray.tfar = std::numeric_limits<float>::infinity();
+    ray.mask = 0xffffffffu, ray.flags = 0, ray.time = 0, ray.id = 0;
+    rtcOccluded1(s.scene, &crossings.context, &ray);
+    return crossings.sum;
+  };
+  if (s.is_closed) {
+    const int a = count(s.directions[3]), b = count(s.directions[11]);
+    if (a == b) return a;
+    const int c = count(s.directions[18]);
+    return c == a || c == b ? c : std::max(std::min(a, b), std::min(std::max(a, b), c));  // the median
+  }
+  double sum = 0;
+  for (const auto& direction : s.directions) sum += std::clamp(count(direction), -1, 1);
+  return sum / kOpenDirections;
+}
+
+}  // namespace partwise

@@ -1,0 +1,55 @@
+// Bridges, valleys and convex ridges of a part (Liu 2017, sections 2.4.3 and 2.4.3.1, Algorithm 3).
+//
+// A bridge is an edge of the part's convex hull, its valley the shortest path on the part between its ends. A valley is
+// deep when its concavity exceeds the tolerance. A convex ridge is a group of hull vertices joined by shallow valleys
+// with no deep one among them: a protruding piece that is convex enough. A part with one ridge needs no cut.
+//
+// Bridges through the inside of the solid, which only bridge the openings that earlier cuts left, are no bridges: those
+// at whose quarter points the whole surface winds round.
+//
+// A valley that runs on the hull itself has nothing beneath the hull to show: it goes round a flat opening, as the rim of
+// a cup does round the mouth. Such rims do not count as concavity. They are cut where that helps (the outline of a flat
+// plate), see valley_decomposition.h.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "partwise/geometry/surface_query.h"
+#include "partwise/parts/solid/concavity_polygon.h"
+#include "partwise/parts/solid/part_graph.h"
+
+namespace partwise {
+
+struct Valley {
+  std::vector<int> path;        // local vertices, from one end of the bridge to the other
+  std::vector<Point2> profile;  // the flattened path
+  double concavity = 0;
+  bool on_hull = false;  // deep, but no vertex is inside the hull by more than a quarter of the tolerance
+};
+
+struct Bridges {
+  struct Shallow {
+    int a, b;       // local vertices
+    double length;  // of the valley
+  };
+  std::vector<Shallow> shallow;
+  std::vector<Valley> deep;
+  std::vector<Valley> rims;  // deep and on the hull: the rim of a cup, the outline of a plate
+  double concavity = 0;  // largest of all but the rims; for shallow valleys that were only bounded, their bound counts if it is larger
+};
+
+// All bridges of the part at a tolerance in model units. `surface` is the whole solid's.
+Bridges find_bridges(const PartGraph& part, const SurfaceQuery& surface, double tolerance);
+
+// Whether find_bridges() would find a deep valley other than rims; looks no further than the first.
+bool has_deep_valley(const PartGraph& part, const SurfaceQuery& surface, double tolerance);
+
+struct ConvexRidges {
+  std::vector<std::vector<int>> members;  // hull vertices (local) of each ridge
+  std::vector<int> of_vertex;             // ridge of each local vertex, -1 off the hull
+};
+
+ConvexRidges convex_ridges(const PartGraph& part, const Bridges& bridges);
+
+}  // namespace partwise

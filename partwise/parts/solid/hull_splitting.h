@@ -1,0 +1,32 @@
+// Pieces for the `hull` measure: a part is split until its hull stays within a tolerance of the solid.
+//
+// First between its convex ridges (Liu 2017, section 2.4), which finds the meaningful cuts. Where that only chips off
+// corners, so that the largest piece is about as large as the whole was (a cup whose valleys run along its rim), by a
+// plane: of planes across the principal axes and between them, at several heights, the one whose two sides have the
+// least total hull volume. Planes cut the inner and the outer wall of a shell at the same place.
+#pragma once
+
+#include <vector>
+
+#include "partwise/parts/solid/outside_distance.h"
+#include "partwise/parts/solid/part_merging.h"
+
+namespace partwise {
+
+struct SplittingSettings {
+  double hull_tolerance = 0;    // the pieces' hulls hold this, model units
+  double valley_tolerance = 0;  // of the ridge separation
+  double minimum_thickness = 0;
+};
+
+// The faces listed are one connected group. Pieces are connected; one of a single face is kept whatever its hull.
+std::vector<HullPart> split_to_tolerance(const Mesh& mesh, const SurfaceQuery& surface, OutsideDistance& outside,
+                                         std::vector<int> faces, const SplittingSettings& settings,
+                                         const Progress& progress);
+
+// The two sides of the best plane through the part's faces (by their centroids), each in its connected pieces; one piece
+// if no plane separates them.
+std::vector<std::vector<int>> split_by_plane(const Mesh& mesh, const std::vector<int>& faces, const Point& through,
+                                             double minimum_thickness);
+
+}  // namespace partwise

@@ -1,0 +1,183 @@
+#include "partwise/parts/solid/part_graph.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <queue>
+
+namespace partwise {
+namespace {
+
+// The straight distance between corners p and q across their shared edge (a, b) once the two faces lie in one plane;
+// nothing where the line would leave the faces.
+std::optional<double> unfolded_diagonal(const Point& a, const Point& b, const Point& p, const Point& q) {
+  const double edge = (b - a).norm();
+  if (edge == 0) return {};
+  const Point along = (b - a) / edge;
+  const double xp = (p - a).dot(along), xq = (q - a).dot(along);
+  const double yp = (p - a - xp * along).norm(), yq = (q - a - xq * along).norm();
+  if (yp + yq == 0) return {};
+  const double crossing = (xp * yq + xq * yp) / (yp + yq);
+  if (crossing <= 0 || crossing >= edge) return {};
+  return std::hypot(xp - xq, yp + yq);
+}
+
+}  // namespace
+
+PartGraph part_graph(const Mesh& mesh, std::span<const int> faces) {
+  PartGraph part;
+  part.faces.assign(faces.begin(), faces.end());
+  std::vector<int> local(static_cast<std::size_t>(mesh.vertices.rows()), -1);
+  for (int f : faces)
+    for (int k = 0; k < 3; ++k) local[mesh.faces(f, k)] = 0;
+  for (std::size_t v = 0; v < local.size(); ++v) {
+    if (local[v] < 0) continue;
+    local[v] = part.size();
+    part.vertices.push_back(static_cast<int>(v));
+  }
+  part.positions = mesh.vertices(part.vertices, Eigen::all);
+
+  struct HalfEdge {
+    std::uint64_t ends;  // the lower vertex in the upper half
+    int face, opposite;
+  };
+  std::vector<HalfEdge> half_edges;
+  half_edges.reserve(3 * faces.size());
+  part.corners.reserve(faces.size());
+  for (int f : faces) {
+    const std::array<int, 3> c{local[mesh.faces(f, 0)], local[mesh.faces(f, 1)], local[mesh.faces(f, 2)]};
+    for (int k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax(c[k], c[(k + 1) % 3]);
+      if (low == high) continue;
+      half_edges.push_back({static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint32_t>(high),
+                            static_cast<int>(part.corners.size()), c[(k + 2) % 3]});
+    }
+    part.corners.push_back(c);
+  }
+  std::sort(half_edges.begin(), half_edges.end(), [](const HalfEdge& x, const HalfEdge& y) {
+    return x.ends != y.ends ? x.ends < y.ends : x.face < y.face;
+  });
+
+  struct Link {
+    int a, b;
+    double length;
+  };
+  std::vector<Link> links;
+  links.reserve(half_edges.size());
+  for (std::size_t i = 0, j; i < half_edges.size(); i = j) {
+    const int a = static_cast<int>(half_edges[i].ends >> 32), b = static_cast<int>(half_edges[i].ends & 0xffffffffu);
+    const Point pa = part.positions.row(a), pb = part.positions.row(b);
+    links.push_back({a, b, (pa - pb).norm()});
+    for (j = i + 1; j < half_edges.size() && half_edges[j].ends == half_edges[i].ends; ++j) {
+      const HalfEdge &e = half_edges[j - 1], &next = half_edges[j];
+      if (e.face == next.face) continue;
+      part.shared.push_back({e.face, next.face, a, b});
+      if (e.opposite == next.opposite) continue;
+      const auto diagonal = unfolded_diagonal(pa, pb, part.positions.row(e.opposite), part.positions.row(next.opposite));
+      if (diagonal) links.push_back({e.opposite, next.opposite, *diagonal});
+    }
+  }
+  part.first.assign(part.vertices.size() + 1, 0);
+  for (const Link& l : links) ++part.first[l.a + 1], ++part.first[l.b + 1];
+  for (std::size_t v = 0; v < part.vertices.size(); ++v) part.first[v + 1] += part.first[v];
+  part.neighbour.resize(2 * links.size());
+  part.length.resize(2 * links.size());
+  std::vector<int> next(part.first.begin(), part.first.end() - 1);
+  for (const Link& l : links) {
+    part.neighbour[next[l.a]] = l.b, part.length[next[l.a]++] = l.length;
+    part.neighbour[next[l.b]] = l.a, part.length[next[l.b]++] = l.length;
+  }
+  return part;
+}
+
+void PathSearch::begin() { ++round_; }
+
+bool PathSearch::relax(int v, double distance, int previous) {
+  if (seen_[v] == round_ && distance_[v] <= distance) return false;
+  seen_[v] = round_;
+  distance_[v] = distance;
+  previous_[v] = previous;
+  return true;
+}
+
+namespace {
+using Queued = std::pair<double, int>;
+using Queue = std::priority_queue<Queued, std::vector<Queued>, std::greater<>>;
+}  // namespace
+
+double PathSearch::bounded_length(int a, int b, double at_most) {
+  begin();
+  const Point goal = graph_.positions.row(b);
+  const auto ahead = [&](int v) { return (graph_.positions.row(v) - goal).norm(); };
+  Queue queue;
+  relax(a, 0, -1);
+  queue.push({ahead(a), a});
+  while (!queue.empty()) {
+    const auto [key, v] = queue.top();
+    queue.pop();
+    if (v == b) return distance_[b];
+    const double here = distance_[v];
+    if (key > here + ahead(v) + 1e-12) continue;  // A shorter way was found since.
+    for (int i = graph_.first[v]; i < graph_.first[v + 1]; ++i) {
+      const int w = graph_.neighbour[i];
+      const double distance = here + graph_.length[i];
+      const double least = distance + ahead(w);
+      if (least <= at_most && relax(w, distance, v)) queue.push({least, w});
+    }
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+void PathSearch::from(int source, std::span<const int> targets) {
+  begin();
+  std::vector<int> wanted(targets.begin(), targets.end());
+  std::sort(wanted.begin(), wanted.end());
+  std::size_t missing = wanted.size();
+  Queue queue;
+  relax(source, 0, -1);
+  queue.push({0, source});
+  while (!queue.empty() && missing > 0) {
+    const auto [distance, v] = queue.top();
+    queue.pop();
+    if (distance > distance_[v]) continue;
+    if (std::binary_search(wanted.begin(), wanted.end(), v)) --missing;
+    for (int i = graph_.first[v]; i < graph_.first[v + 1]; ++i) {
+      const int w = graph_.neighbour[i];
+      if (relax(w, distance + graph_.length[i], v)) queue.push({distance_[w], w});
+    }
+  }
+}
+
+std::vector<int> PathSearch::path_to(int target) const {
+  std::vector<int> path;
+  if (seen_[target] != round_) return path;
+  for (int v = target; v >= 0; v = previous_[v]) path.push_back(v);
+  std::reverse(path.begin(), path.end());
+  return path;
+}
+
+std::vector<double> PathSearch::within_reach(std::span<const std::pair<int, double>> sources) {
+  begin();
+  std::vector<double> result(static_cast<std::size_t>(graph_.size()), 0.0);
+  Queue queue;
+  for (const auto& [v, reach] : sources)
+    if (relax(v, -reach, -1)) queue.push({-reach, v});
+  while (!queue.empty()) {
+    const auto [value, v] = queue.top();
+    queue.pop();
+    if (value > distance_[v]) continue;
+    result[v] = value;
+    for (int i = graph_.first[v]; i < graph_.first[v + 1]; ++i) {
+      const int w = graph_.neighbour[i];
+      const double next = value + graph_.length[i];
+      if (next < 0 && relax(w, next, v)) queue.push({next, w});
+    }
+  }
+  return result;
+}
+
+}  // namespace partwise

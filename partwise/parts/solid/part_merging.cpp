@@ -1,0 +1,271 @@
+#include "partwise/parts/solid/part_merging.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <queue>
+#include <set>
+
+#include "partwise/geometry/convex_hull.h"
+
+namespace partwise {
+namespace {
+
+constexpr int kSketchDirections = 96;
+constexpr double kGrowthPrice = 0.1;  // of a volume of solid taken in, against the same volume of air
+constexpr std::size_t kMostPiecesToDissolve = 8;
+
+Vertices stacked(const Vertices& a, const Vertices& b) {
+  Vertices both(a.rows() + b.rows(), 3);
+  both << a, b;
+  return both;
+}
+
+std::vector<std::vector<int>> neighbours_by_vertex(const Mesh& mesh, const std::vector<HullPart>& pieces) {
+  std::vector<std::vector<int>> at_vertex(static_cast<std::size_t>(mesh.vertices.rows()));
+  for (int p = 0; p < static_cast<int>(pieces.size()); ++p) {
+    for (int f : pieces[p].faces) {
+      for (int k = 0; k < 3; ++k) {
+        auto& here = at_vertex[mesh.faces(f, k)];
+        if (here.empty() || here.back() != p) here.push_back(p);
+      }
+    }
+  }
+  std::vector<std::set<int>> sets(pieces.size());
+  for (const auto& here : at_vertex)
+    for (int a : here)
+      for (int b : here)
+        if (a != b) sets[a].insert(b);
+  std::vector<std::vector<int>> neighbours;
+  for (const auto& set : sets) neighbours.emplace_back(set.begin(), set.end());
+  return neighbours;
+}
+
+}  // namespace
+
+Vertices extreme_points(const Vertices& points) {
+  if (points.rows() <= kSketchDirections) return points;
+  static const Eigen::Matrix<double, 3, kSketchDirections> directions = [] {
+    Eigen::Matrix<double, 3, kSketchDirections> d;  // a Fibonacci lattice
+    for (int i = 0; i < kSketchDirections; ++i) {
+      const double z = 1 - (2 * i + 1.0) / kSketchDirections, r = std::sqrt(1 - z * z), around = 2.399963229728653 * i;
+      d.col(i) = Eigen::Vector3d(r * std::cos(around), r * std::sin(around), z);
+    }
+    return d;
+  }();
+  std::vector<Eigen::Index> extreme;
+  for (int i = 0; i < kSketchDirections; ++i) {
+    Eigen::Index best;
+    (points * directions.col(i)).maxCoeff(&best);
+    extreme.push_back(best);
+  }
+  std::sort(extreme.begin(), extreme.end());
+  extreme.erase(std::unique(extreme.begin(), extreme.end()), extreme.end());
+  return points(extreme, Eigen::all);
+}
+
+Vertices corners_of(const Mesh& mesh, const std::vector<int>& faces) {
+  std::vector<int> used;
+  used.reserve(3 * faces.size());
+  for (int f : faces)
+    for (int k = 0; k < 3; ++k) used.push_back(mesh.faces(f, k));
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  return mesh.vertices(used, Eigen::all);
+}
+
+HullPart hull_part(const Mesh& mesh, std::vector<int> faces, double minimum_thickness) {
+  const ConvexHull hull = convex_hull(corners_of(mesh, faces), minimum_thickness);
+  HullPart part{std::move(faces), hull.mesh.vertices, {}, hull.volume};
+  part.sketch = extreme_points(part.corners);
+  return part;
+}
+
+PartMerging::PartMerging(const Mesh& mesh, const SpaceSamples& space, std::vector<HullPart> pieces, AcceptMerge accept,
+                         const MergeSettings& settings)
+    : mesh_(mesh),
+      space_(space),
+      accept_(std::move(accept)),
+      settings_(settings),
+      pieces_(std::move(pieces)),
+      piece_neighbours_(neighbours_by_vertex(mesh, pieces_)),
+      part_of_(pieces_.size()),
+      parts_(pieces_.size()),
+      covered_(static_cast<std::size_t>(space.air.rows()), 0) {
+  std::iota(part_of_.begin(), part_of_.end(), 0);
+  for (int p = 0; p < static_cast<int>(parts_.size()); ++p) {
+    parts_[p].pieces = {p};
+    replace(p, pieces_[p]);
+  }
+}
+
+// From the sketches: the volume of the air that no hull holds yet, and a little for the growth of the hulls, so that
+// among those that take in none the one that grows least comes first.
+double PartMerging::cost_of(const HullPart& a, const HullPart& b) const {
+  const ConvexHull hull = convex_hull(stacked(a.sketch, b.sketch), settings_.minimum_thickness);
+  double air = 0;
+  for (int point : points_inside(space_.air, hull.mesh)) air += covered_[point] == 0 ? space_.volume : 0;
+  if (air > settings_.largest_air) return std::numeric_limits<double>::infinity();
+  return air + kGrowthPrice * std::max(0.0, hull.volume - a.volume - b.volume);
+}
+
+bool PartMerging::joined(const HullPart& a, const HullPart& b, HullPart& result) const {
+  const ConvexHull hull = convex_hull(stacked(a.corners, b.corners), settings_.minimum_thickness);
+  if (!accept_(a, b, hull.mesh)) return false;
+  std::vector<int> faces(a.faces.size() + b.faces.size());
+  std::merge(a.faces.begin(), a.faces.end(), b.faces.begin(), b.faces.end(), faces.begin());
+  result = {std::move(faces), hull.mesh.vertices, extreme_points(hull.mesh.vertices), hull.volume};
+  return true;
+}
+
+void PartMerging::replace(int part, HullPart body) {
+  Part& p = parts_[part];
+  for (int i : p.air) --covered_[i];
+  p.body = std::move(body);
+  p.air.clear();
+  if (!p.body.faces.empty()) p.air = points_inside(space_.air, convex_hull(p.body.corners, settings_.minimum_thickness).mesh);
+  for (int i : p.air) ++covered_[i];
+  ++p.version;
+}
+
+std::vector<int> PartMerging::neighbours(int part) const {
+  std::vector<int> result;
+  for (int piece : parts_[part].pieces)
+    for (int other : piece_neighbours_[piece])
+      if (part_of_[other] != part) result.push_back(part_of_[other]);
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+void PartMerging::merge(const Progress& progress) {
+  struct Candidate {
+    double cost;
+    int a, b, version_a, version_b;
+    bool operator<(const Candidate& other) const {  // The queue's top is the cheapest, then the first pair.
+      if (cost != other.cost) return cost > other.cost;
+      return a != other.a ? a > other.a : b > other.b;
+    }
+  };
+  std::priority_queue<Candidate> queue;
+  std::vector<std::pair<int, int>> fresh;
+  for (int a = 0; a < static_cast<int>(parts_.size()); ++a)
+    for (int b : neighbours(a))
+      if (a < b && !parts_[a].refused.count(b)) fresh.emplace_back(a, b);
+  double merged = 0;
+  for (;;) {
+    std::vector<double> cost(fresh.size());
+    tbb::parallel_for(std::size_t{0}, fresh.size(), [&](std::size_t i) {
+      cost[i] = cost_of(parts_[fresh[i].first].body, parts_[fresh[i].second].body);
+    });
+    for (std::size_t i = 0; i < fresh.size(); ++i) {
+      const auto [a, b] = fresh[i];
+      if (std::isfinite(cost[i])) queue.push({cost[i], a, b, parts_[a].version, parts_[b].version});
+    }
+    fresh.clear();
+    while (fresh.empty()) {
+      if (queue.empty()) return;
+      const auto [c, a, b, version_a, version_b] = queue.top();
+      queue.pop();
+      if (parts_[a].version != version_a || parts_[b].version != version_b) continue;
+      HullPart both;
+      if (!joined(parts_[a].body, parts_[b].body, both)) {
+        parts_[a].refused.insert(b);
+        parts_[b].refused.insert(a);
+        continue;
+      }
+      for (int r : parts_[b].refused) {
+        parts_[a].refused.insert(r);
+        parts_[r].refused.insert(a);
+      }
+      for (int piece : parts_[b].pieces) part_of_[piece] = a;
+      parts_[a].pieces.insert(parts_[a].pieces.end(), parts_[b].pieces.begin(), parts_[b].pieces.end());
+      parts_[b].pieces.clear();
+      replace(b, {});
+      replace(a, std::move(both));
+      for (int n : neighbours(a))
+        if (!parts_[a].refused.count(n)) fresh.emplace_back(std::min(n, a), std::max(n, a));
+      if (fresh.empty()) break;
+      progress("merging", ++merged / static_cast<double>(parts_.size()));
+    }
+  }
+}
+
+bool PartMerging::dissolve_part(int part) {
+  std::map<int, HullPart> taker;  // the neighbours as they would become
+  const auto body = [&](int p) -> const HullPart& {
+    const auto found = taker.find(p);
+    return found != taker.end() ? found->second : parts_[p].body;
+  };
+  std::vector<int> left = parts_[part].pieces;
+  std::map<int, int> goes_to;
+  std::set<std::pair<int, int>> refused;  // (piece, part): a larger part would be refused as well
+  while (!left.empty()) {
+    std::vector<Growth> growths;
+    for (int piece : left) {
+      std::set<int> beside;
+      for (int other : piece_neighbours_[piece]) {
+        const auto moved = goes_to.find(other);
+        const int owner = moved != goes_to.end() ? moved->second : part_of_[other];
+        if (owner != part && !refused.count({piece, owner}) && !parts_[owner].refused_pieces.count(piece)) beside.insert(owner);
+      }
+      for (int p : beside) growths.push_back({0, piece, p});
+    }
+    tbb::parallel_for(std::size_t{0}, growths.size(), [&](std::size_t i) {
+      growths[i].cost = cost_of(body(growths[i].part), pieces_[growths[i].piece]);
+    });
+    std::sort(growths.begin(), growths.end(), [](const Growth& x, const Growth& y) {
+      if (x.cost != y.cost) return x.cost < y.cost;
+      return x.piece != y.piece ? x.piece < y.piece : x.part < y.part;
+    });
+    bool placed = false;
+    for (const Growth& g : growths) {
+      HullPart grown;
+      if (!std::isfinite(g.cost) || !joined(body(g.part), pieces_[g.piece], grown)) {
+        refused.insert({g.piece, g.part});
+        if (!taker.count(g.part)) parts_[g.part].refused_pieces.insert(g.piece);
+        continue;
+      }
+      taker[g.part] = std::move(grown);
+      goes_to[g.piece] = g.part;
+      std::erase(left, g.piece);
+      placed = true;
+      break;
+    }
+    if (!placed) return false;
+  }
+  for (const auto& [piece, to] : goes_to) {
+    part_of_[piece] = to;
+    parts_[to].pieces.push_back(piece);
+  }
+  for (auto& [p, grown] : taker) replace(p, std::move(grown));
+  parts_[part].pieces.clear();
+  replace(part, {});
+  return true;
+}
+
+int PartMerging::dissolve(const Progress& progress) {
+  std::vector<int> order;
+  for (int p = 0; p < static_cast<int>(parts_.size()); ++p)
+    if (!parts_[p].pieces.empty() && parts_[p].pieces.size() <= kMostPiecesToDissolve) order.push_back(p);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return parts_[a].body.volume < parts_[b].body.volume; });
+  int gone = 0;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    progress("dissolving", static_cast<double>(i) / static_cast<double>(order.size()));
+    gone += dissolve_part(order[i]);
+  }
+  return gone;
+}
+
+std::vector<HullPart> PartMerging::parts() const {
+  std::vector<HullPart> result;
+  for (const Part& part : parts_)
+    if (!part.pieces.empty()) result.push_back(part.body);
+  return result;
+}
+
+}  // namespace partwise

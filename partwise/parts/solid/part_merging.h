@@ -1,0 +1,87 @@
+// Fewer parts, from pieces that are small enough: neighbours are merged, the pair whose common hull takes in the least
+// air first, as long as the merged part keeps its promise. Then parts are dissolved: the pieces of one are handed to its
+// neighbours, if every one of them can take its share and keep its promise.
+//
+// A part's promise is what `accept` says: for the `hull` measure that the hull stays within the tolerance of the solid,
+// for `valley` that no valley of the part is deep.
+#pragma once
+
+#include <functional>
+#include <set>
+#include <vector>
+
+#include "partwise/base/progress.h"
+#include "partwise/geometry/mesh.h"
+#include "partwise/parts/solid/space_samples.h"
+
+namespace partwise {
+
+struct HullPart {
+  std::vector<int> faces;  // of the mesh, ascending
+  Vertices corners;        // vertices of the exact convex hull of the faces' vertices
+  Vertices sketch;         // extreme_points() of the corners, for quick estimates
+  double volume = 0;       // of the exact hull
+};
+
+// The points that are extreme in one of a fixed set of directions spread over the sphere: at most 96 of them.
+Vertices extreme_points(const Vertices& points);
+
+// The vertices that the faces listed use.
+Vertices corners_of(const Mesh& mesh, const std::vector<int>& faces);
+
+HullPart hull_part(const Mesh& mesh, std::vector<int> faces, double minimum_thickness);
+
+// Whether the two may be one part with this hull. Called in a fixed order from one thread.
+using AcceptMerge = std::function<bool(const HullPart& a, const HullPart& b, const Mesh& hull)>;
+
+struct MergeSettings {
+  double minimum_thickness = 1e-4;  // of hulls, model units
+  double largest_air = 1e300;       // no merge takes in more air, model units cubed
+};
+
+class PartMerging {
+ public:
+  // Pieces are neighbours when they share a vertex; each should be connected. The references must outlive this.
+  PartMerging(const Mesh& mesh, const SpaceSamples& space, std::vector<HullPart> pieces, AcceptMerge accept,
+              const MergeSettings& settings);
+
+  // Merges until no pair is accepted.
+  void merge(const Progress& progress);
+
+  // Tries once to dissolve each part, smallest volume first. Returns how many went.
+  int dissolve(const Progress& progress);
+
+  std::vector<HullPart> parts() const;
+
+ private:
+  struct Part {
+    HullPart body;
+    std::vector<int> pieces;
+    std::vector<int> air;  // the sample points in the hull
+    int version = 0;       // counts its changes
+    std::set<int> refused;         // parts that it may not be merged with; what grows stays refused
+    std::set<int> refused_pieces;  // pieces of others that it may not take
+  };
+  struct Growth {
+    double cost;
+    int piece, part;
+  };
+
+  double cost_of(const HullPart& a, const HullPart& b) const;
+  bool joined(const HullPart& a, const HullPart& b, HullPart& result) const;  // false: not accepted
+  void replace(int part, HullPart body);
+  std::vector<int> neighbours(int part) const;
+  bool dissolve_part(int part);
+
+  const Mesh& mesh_;
+  const SpaceSamples& space_;
+  AcceptMerge accept_;
+  MergeSettings settings_;
+  std::vector<HullPart> pieces_;
+  std::vector<std::vector<int>> piece_neighbours_;
+  std::vector<int> part_of_;  // of each piece
+  std::vector<Part> parts_;   // those without pieces are gone
+  std::vector<int> covered_;  // how many hulls each air point is in
+};
+
+}  // namespace partwise
