@@ -92,8 +92,8 @@ void expect_mesh_or_message(const std::string& name, std::string_view bytes) {
 // Whatever is left of a file, or becomes of it, it is a mesh or a message; the sanitizers watch over the rest.
 TEST(Corpus, SurvivesCuttingAndChangingEveryByte) {
   for (const char* name : {"comments.off", "colours.off", "l_prism_of_polygons.off", "all_corner_forms.obj",
-                           "continued_lines.obj", "extra_elements.ply", "big_endian.ply", "little_endian.ply", "ascii.stl",
-                           "binary.stl", "tetrahedron.glb", "nodes.glb", "embedded.gltf"}) {
+                           "continued_lines.obj", "extra_elements.ply", "big_endian.ply", "little_endian.ply",
+                           "ascii.stl", "binary.stl", "tetrahedron.glb", "nodes.glb", "embedded.gltf"}) {
     SCOPED_TRACE(name);
     std::ifstream file(kCorpus / name, std::ios::binary);
     const std::string bytes(std::istreambuf_iterator<char>(file), {});

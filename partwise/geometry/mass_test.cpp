@@ -1,7 +1,7 @@
 #include "partwise/geometry/mass.h"
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "partwise/base/error.h"
 
@@ -12,7 +12,8 @@ namespace {
 Mesh box(double a, double b, double c) {
   Mesh mesh{Vertices(8, 3), Faces(12, 3)};
   for (int i = 0; i < 8; ++i) mesh.vertices.row(i) << (i & 4 ? a : -a) / 2, (i & 2 ? b : -b) / 2, (i & 1 ? c : -c) / 2;
-  mesh.faces << 0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1, 2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3;
+  mesh.faces << 0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1, 2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7,
+      3;
   return mesh;
 }
 

@@ -101,7 +101,8 @@ TEST_F(MeshIo, WritesTheSameBytesAgain) {
 TEST_F(MeshIo, SeveralMeshesAreReadAsOne) {
   Mesh second = tetrahedron();
   second.vertices.col(0).array() += 1;  // Touches the first: the two must not grow together.
-  const std::vector<NamedMesh> both{{"first part", tetrahedron(), {1, 0, 0}}, {"<second> & \"last\"", second, {0, 0, 1}}};
+  const std::vector<NamedMesh> both{{"first part", tetrahedron(), {1, 0, 0}},
+                                    {"<second> & \"last\"", second, {0, 0, 1}}};
   for (const char* name : {"a.off", "a.obj", "a.ply", "a.glb"}) {
     SCOPED_TRACE(name);
     write_meshes(path(name), both);

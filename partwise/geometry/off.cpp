@@ -53,9 +53,9 @@ void read_face(TextScanner& scanner, std::size_t face, MeshBuilder& builder) {
   for (std::int64_t k = 0; k < corners; ++k) {
     const std::int64_t vertex = scanner.integer("a vertex of a face");
     if (vertex < 0 || vertex >= builder.vertex_count()) {
-      scanner.fail(fmt::format("face {} names vertex {}, the file has {} (from 0)", face, vertex,
-                               builder.vertex_count()),
-                   "fix or drop the face");
+      scanner.fail(
+          fmt::format("face {} names vertex {}, the file has {} (from 0)", face, vertex, builder.vertex_count()),
+          "fix or drop the face");
     }
     builder.add_corner(vertex);
   }

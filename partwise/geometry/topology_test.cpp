@@ -1,8 +1,8 @@
 #include "partwise/geometry/topology.h"
 
-#include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
@@ -232,9 +232,8 @@ TEST(Topology, OrientLeavesAMoebiusBandAlone) {
     band.faces.row(i) << i, (i + 1 + i % 2) % 7, (i + 2 - i % 2) % 7;
   }
   const auto edges = edges_of(band);
-  const auto disagreements = std::count_if(edges.begin(), edges.end(), [](const auto& e) {
-    return e.second.faces.size() == 2 && e.second.sum != 0;
-  });
+  const auto disagreements = std::count_if(
+      edges.begin(), edges.end(), [](const auto& e) { return e.second.faces.size() == 2 && e.second.sum != 0; });
   ASSERT_GT(disagreements, 0);
   EXPECT_EQ(orient_consistently(band).faces, band.faces);
 }

@@ -1,7 +1,7 @@
 #include "partwise/geometry/triangulate_polygon.h"
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <numbers>
@@ -62,9 +62,9 @@ TEST(TriangulatePolygon, RandomStarsInAnyPlane) {
       const double phi = 2 * std::numbers::pi * i / n, r = radius(random);
       v.row(i) << r * std::cos(phi), r * std::sin(phi), 0;
     }
-    const Eigen::Matrix3d rotation =
-        (Eigen::AngleAxisd(angle(random), Eigen::Vector3d::UnitX()) * Eigen::AngleAxisd(angle(random), Eigen::Vector3d::UnitY()))
-            .toRotationMatrix();
+    const Eigen::Matrix3d rotation = (Eigen::AngleAxisd(angle(random), Eigen::Vector3d::UnitX()) *
+                                      Eigen::AngleAxisd(angle(random), Eigen::Vector3d::UnitY()))
+                                         .toRotationMatrix();
     v = (v * rotation).rowwise() + Point(3, -2, 1);
     SCOPED_TRACE(trial);
     expect_covers(v, triangulate(v));
