@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from . import process
+from .rand_error import read_labels
 
 
 @dataclass
@@ -81,7 +82,6 @@ def judge(settings, mesh, labels, hulls, tolerance=None):
 
 
 def decompose(settings, mesh, people=None):
-    from .rand_error import read_labels
     with tempfile.TemporaryDirectory() as folder:
         files = Files(Path(folder))
         run = run_program(settings, mesh, files)
