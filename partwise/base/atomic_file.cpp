@@ -11,8 +11,16 @@
 namespace partwise {
 
 AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
+  std::error_code missing;
+  const std::filesystem::path target = std::filesystem::canonical(path_, missing);
+  if (!missing) path_ = target;
+  const std::filesystem::file_status status = std::filesystem::status(path_, missing);
+  if (std::filesystem::is_directory(status)) {
+    throw InputError(path_.string(), "is a folder", "name a file in it");
+  }
+  in_place_ = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
   temporary_ = path_;
-  temporary_ += fmt::format(".{}.tmp", ::getpid());
+  if (!in_place_) temporary_ += fmt::format(".{}.tmp", ::getpid());
   errno = 0;
   stream_.open(temporary_, std::ios::binary | std::ios::trunc);
   if (!stream_) {
@@ -22,7 +30,7 @@ AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
 }
 
 AtomicFile::~AtomicFile() {
-  if (committed_) return;
+  if (committed_ || in_place_) return;
   stream_.close();
   std::error_code ignored;
   std::filesystem::remove(temporary_, ignored);
@@ -35,7 +43,7 @@ void AtomicFile::commit() {
     throw InputError(path_.string(), fmt::format("writing failed ({})", std::strerror(errno)), "free some disk space");
   }
   std::error_code error;
-  std::filesystem::rename(temporary_, path_, error);
+  if (!in_place_) std::filesystem::rename(temporary_, path_, error);
   if (error) {
     throw InputError(path_.string(), fmt::format("cannot be replaced ({})", error.message()),
                      "name a file, not a folder, in a folder that you may write to");

@@ -1,6 +1,10 @@
 // A file that appears whole or not at all: it is written beside its final name and renamed by commit().
 //
-// Errors: InputError when the folder does not exist or cannot be written, when the disk is full, or when the rename fails.
+// A symbolic link is followed. A device or a pipe (/dev/stdout, /dev/full) cannot be replaced and is written straight
+// away.
+//
+// Errors: InputError when the folder does not exist or cannot be written, when the disk is full, or when the rename
+// fails.
 #pragma once
 
 #include <filesystem>
@@ -23,6 +27,7 @@ class AtomicFile {
  private:
   std::filesystem::path path_, temporary_;
   std::ofstream stream_;
+  bool in_place_ = false;  // a device or a pipe
   bool committed_ = false;
 };
 

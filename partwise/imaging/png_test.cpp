@@ -2,22 +2,18 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <fstream>
 
 #include "partwise/base/atomic_file.h"
 #include "partwise/base/error.h"
+#include "partwise/base/test_folder.h"
 
 namespace partwise {
 namespace {
 
 class Png : public testing::Test {
  protected:
-  std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) / fmt::format("partwise_png_{}", ::getpid());
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
+  TestFolder test_folder_;
+  const std::filesystem::path& folder_ = test_folder_.path();
 };
 
 TEST_F(Png, RoundTripIsExactInTheFilesCodes) {
