@@ -267,6 +267,16 @@ class Stopping(CommandLine):
         path.write_text("\n".join(lines) + "\n")
         return path
 
+    def wait_for_handler(self, process, number):
+        deadline = time.monotonic() + 30
+        while time.monotonic() < deadline:
+            status = Path(f"/proc/{process.pid}/status").read_text()
+            caught = int(status.split("SigCgt:")[1].split()[0], 16)
+            if caught >> (number - 1) & 1:
+                return
+            time.sleep(0.001)
+        self.fail("the program does not catch the signal")
+
     def test_ctrl_c_stops_cleanly(self):
         mesh = self.big_mesh()
         for number in (signal.SIGINT, signal.SIGTERM):
@@ -274,7 +284,7 @@ class Stopping(CommandLine):
                 [PROGRAM, "decompose", mesh, "--tolerance", "0.01", "--labels", self.folder / "a.seg"],
                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
             )
-            time.sleep(0.3)
+            self.wait_for_handler(process, number)
             process.send_signal(number)
             output, message = process.communicate(timeout=60)
             self.assertEqual(process.returncode, 128 + number, message)

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <utility>
 
+#include "partwise/base/atomic_file.h"
 #include "partwise/base/error.h"
 
 namespace partwise::cli {
@@ -21,6 +22,15 @@ std::string lower_ending(const fs::path& path) {
   std::string ending = path.extension().string();
   std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return ending;
+}
+
+// Absolute, without links or dots, so that equal places have equal names.
+fs::path final_place(const fs::path& path) {
+  std::error_code error;
+  const fs::path followed = follow_links(fs::absolute(path));
+  if (is_written_in_place(followed)) return followed;
+  const fs::path place = fs::weakly_canonical(followed, error);
+  return error ? followed.lexically_normal() : place;
 }
 
 void copy_to_device(const fs::path& from, const fs::path& device) {
@@ -70,8 +80,7 @@ void Outputs::refuse_same_file(const Entry& entry) const {
 
 void Outputs::add_input(const std::string& option, const fs::path& path) {
   Entry entry{.option = option, .path = path, .is_input = true};
-  std::error_code missing;
-  entry.final = fs::weakly_canonical(fs::absolute(path), missing);
+  entry.final = final_place(path);
   refuse_same_file(entry);
   entries_.push_back(std::move(entry));
 }
@@ -84,15 +93,14 @@ void Outputs::add(const std::string& option, const fs::path& path, const std::ve
   }
   if (!path.has_filename()) throw UsageError(fmt::format("{}: '{}' is not the name of a file", option, path.string()));
   Entry entry{.option = option, .path = path};
-  std::error_code error;
-  entry.final = fs::weakly_canonical(fs::absolute(path), error);
-  if (error) entry.final = fs::absolute(path).lexically_normal();
+  entry.final = final_place(path);
   refuse_same_file(entry);
 
-  const fs::file_status status = fs::status(entry.final, error);
-  if (fs::is_directory(status))
+  std::error_code error;
+  if (fs::is_directory(entry.final, error)) {
     throw InputError(path.string(), "is a folder", fmt::format("name a file for {}", option));
-  entry.is_device = fs::exists(status) && !fs::is_regular_file(status);
+  }
+  entry.is_device = is_written_in_place(entry.final);
   if (!entry.is_device) {
     const fs::path folder = entry.final.parent_path();
     if (!fs::is_directory(folder, error)) {
