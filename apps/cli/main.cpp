@@ -17,6 +17,7 @@
 #include <new>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "partwise/base/atomic_file.h"
 #include "partwise/base/error.h"
@@ -134,6 +135,7 @@ int parse_and_execute(int argc, char** argv) {
   program.require_subcommand(0, 1);  // checked below, for a message that helps
   program.footer("partwise VERB --help says more and gives an example.");
   std::vector<std::unique_ptr<Command>> commands;
+  commands.reserve(verbs.size());
   for (const Verb* verb : verbs) commands.push_back(add_command(program, *verb));
 
   const Command* chosen = nullptr;

@@ -1,14 +1,23 @@
 // Triangle meshes from and to files: OFF, OBJ, PLY (ascii, binary little and big endian), STL (ascii and binary),
 // glTF 2.0 (.gltf and .glb). The format is chosen by the ending, in any case of letters.
 //
-// Reading. Polygons are triangulated (fan for convex ones, ear clipping otherwise). Several objects, groups or glTF nodes
-// (with their transforms) become one mesh in file order. STL's corners, which have no common indices, are joined where
-// their coordinates are equal to the bit; so are glTF's, whose vertices are split at seams. Colours, normals, textures
-// and materials are passed over. Vertices that no face uses stay, and so do degenerate and repeated faces: `read_mesh`
-// keeps the face order and the vertex order of the file (OFF, OBJ, PLY), so that a line a face in a .seg file fits it.
+// Reading. Polygons are triangulated (a fan for convex ones, ear clipping otherwise). Several objects, groups or glTF
+// nodes (with their transforms; mirrors turn the faces back) become one mesh in file order. STL's corners, which have no
+// common indices, are joined where their coordinates are equal (0 and -0 too), and so are, within each mesh of a glTF,
+// its vertices, which are split at seams; those that no triangle uses are dropped there. Colours, normals, textures and
+// materials are passed over. In OFF, OBJ and PLY vertices that no face uses stay, and degenerate and repeated faces stay
+// everywhere: `read_mesh` keeps the face order and (OFF, OBJ, PLY) the vertex order of the file, so that a line a face
+// in a .seg file fits it. A polygon of n corners is n - 2 faces in a row.
 //
-// Errors: InputError with file (and line or byte where that says more), what is wrong and what to do, for a file that
-// cannot be read, is cut short, has no faces, names vertices that do not exist, or holds NaN or infinite coordinates.
+// What real files do is understood: comments, blank lines, line ends of any system, UTF-8 with a byte order mark; OFF
+// with colours or normals, with a wrong or no number of edges, with counts glued to the keyword; OBJ with negative
+// indices and lines joined by a backslash; PLY with further elements and properties; binary STL that begins with "solid".
+//
+// Errors: InputError, one line, with file (and line or byte where that says more), what is wrong and what to do, for a
+// file that cannot be read, is cut short, has no faces, has a face of fewer than three corners, names vertices that do
+// not exist, holds NaN or infinite coordinates, or does not fit into memory. Counts in a header are checked against the
+// length of the file before anything is allocated. Not read, with a message: binary OFF, triangle strips in PLY, sparse
+// accessors and compression in glTF.
 #pragma once
 
 #include <filesystem>
@@ -22,16 +31,18 @@ namespace partwise {
 
 Mesh read_mesh(const std::filesystem::path& path);
 
-// Writes OFF, OBJ, PLY (binary), STL (binary) or GLB by the ending; positions of OFF and OBJ with 17 digits. Atomic.
+// Writes OFF, OBJ, PLY (binary), STL (binary) or GLB by the ending. Atomic. OFF, OBJ and PLY hold the positions to the
+// bit (text has the shortest digits that read back as the same double), STL and GLB in single precision.
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh);
 
 struct NamedMesh {
   std::string name;
   Mesh mesh;
-  Eigen::Vector3f colour = Eigen::Vector3f::Constant(0.8f);  // linear RGB in [0, 1]; used where the format has colour
+  Eigen::Vector3f colour = Eigen::Vector3f::Constant(0.8f);  // linear RGB in [0, 1]; used in GLB
 };
 
-// One object (OBJ `o`) or one node with its own mesh and material (GLB) a member. Vertices are not shared. Atomic.
+// One object (OBJ `o`) or one node with its own mesh and material (GLB) a member; the other formats know one mesh only
+// and get all as one. Vertices are not shared. Atomic.
 void write_meshes(const std::filesystem::path& path, std::span<const NamedMesh> meshes);
 
 // Princeton's .seg: one line a face, its label.

@@ -1,0 +1,323 @@
+#include "partwise/geometry/hull_simplify.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <ranges>
+#include <tuple>
+#include <vector>
+
+#include "partwise/base/error.h"
+#include "partwise/geometry/convex_hull.h"
+#include "partwise/geometry/half_edge_sphere.h"
+#include "partwise/geometry/linear_programme.h"
+
+namespace partwise {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double far_away = 50;  // New vertices lie within so many hull sizes of the hull.
+
+// The surface that is simplified. `body` is the given hull, scaled to unit size about the origin; the surface is a
+// sphere whose every face plane has the body on its inner side, so that it is star-shaped about each point of the body
+// and its convex hull encloses the body.
+class Simplifier {
+ public:
+  explicit Simplifier(const Mesh& body);
+
+  void collapse_to(int vertices);
+  // Moves each vertex to where the volume is least while all others stay. Returns the volume gained.
+  double polish();
+  Vertices vertices() const;
+  int vertex_count() const { return surface_.vertex_count; }
+
+ private:
+  // A plane through a half-edge that touches the body at `contact`, on the side of the half-edge's face: the new third
+  // corner of that face must lie outside of it.
+  struct Tangent {
+    HalfSpace outside;
+    int contact;
+  };
+  struct Candidate {
+    double cost;
+    int half_edge;
+    int step;  // when it was computed
+    bool operator<(const Candidate& other) const {
+      return std::tie(other.cost, other.half_edge) < std::tie(cost, half_edge);
+    }
+  };
+
+  Tangent tangent(int h, int contact) const;
+  // Recomputes what depends on the position of the vertex.
+  void moved(int vertex);
+  // Appends to link_ the half-edges opposite `vertex` in its faces, less the faces that have `other` as a corner.
+  void gather_link(int vertex, int other);
+  // Where the apex of a fan over link_ adds the least volume and leaves the body inside of all face planes, relative to
+  // `origin`. Returns six times the volume of the fan over `origin`; infinity when there is no such apex.
+  double best_apex(const Eigen::Vector3d& origin, Eigen::Vector3d& apex);
+  // The volume that the collapse of h adds, and where its vertex goes.
+  double collapse_cost(int h, Eigen::Vector3d& apex);
+  void consider(int h);
+
+  const Vertices body_;
+  std::vector<int> neighbour_start_, neighbours_;  // of the body's vertices
+  Vertices position_;
+  HalfEdgeSphere surface_;
+  std::vector<Tangent> tangent_;  // of each half-edge
+  LinearProgramme programme_;
+  std::vector<int> link_;  // half-edges around the star at hand
+  std::vector<HalfSpace> constraints_;
+  std::priority_queue<Candidate> candidates_;
+  int step_ = 0;
+  std::vector<int> computed_;  // of each half-edge the step of its latest candidate
+  std::vector<int> changed_;   // of each vertex the last step that moved it or a neighbour
+};
+
+Simplifier::Simplifier(const Mesh& body)
+    : body_(body.vertices),
+      position_(body.vertices),
+      surface_(body),
+      computed_(surface_.origin.size(), -1),
+      changed_(surface_.out.size(), -1) {
+  neighbour_start_.push_back(0);
+  for (int v = 0; v < body_.rows(); ++v) {
+    const int first = surface_.out[v];
+    if (first >= 0) {
+      int h = first;
+      do neighbours_.push_back(surface_.target(h));
+      while ((h = surface_.around(h)) != first);
+    }
+    neighbour_start_.push_back(static_cast<int>(neighbours_.size()));
+  }
+  for (int h = 0; h < surface_.size(); ++h) tangent_.push_back(tangent(h, surface_.origin[surface_.previous(h)]));
+}
+
+// Walks along the body's edges to the vertex at the largest angle about the half-edge. A vertex with no neighbour
+// outside the plane is the last one, since the body is convex.
+Simplifier::Tangent Simplifier::tangent(int h, int contact) const {
+  const Eigen::Vector3d a = position_.row(surface_.origin[h]), b = position_.row(surface_.target(h));
+  const Eigen::Vector3d along = (b - a).normalized();
+  const Eigen::Vector3d inwards = (along.dot(a) * along - a).normalized();  // to the origin, which is inside
+  const Eigen::Vector3d left = along.cross(inwards);
+  constexpr double on_line = 1e-9;
+  const auto polar = [&](int v) -> Eigen::Vector2d {
+    const Eigen::Vector3d p = body_.row(v).transpose() - a;
+    return {inwards.dot(p), left.dot(p)};
+  };
+  if (polar(contact).norm() < on_line)  // A vertex on the line itself tells no direction: start from the farthest.
+    for (int v = 0; v < body_.rows(); ++v)
+      if (polar(v).squaredNorm() > polar(contact).squaredNorm()) contact = v;
+  Eigen::Vector2d direction = polar(contact);
+  for (bool moved = true; moved;) {
+    moved = false;
+    direction.normalize();
+    for (int i = neighbour_start_[contact]; i < neighbour_start_[contact + 1]; ++i) {
+      const Eigen::Vector2d q = polar(neighbours_[i]);
+      if (direction.x() * q.y() - direction.y() * q.x() <= 1e-14 || q.norm() < on_line) continue;
+      contact = neighbours_[i];
+      direction = q;
+      moved = true;
+      break;
+    }
+  }
+  const Eigen::Vector3d normal = direction.x() * left - direction.y() * inwards;
+  return {{normal, std::max(normal.dot(a), normal.dot(b))}, contact};
+}
+
+void Simplifier::moved(int vertex) {
+  changed_[vertex] = step_;
+  int h = surface_.out[vertex];
+  do {
+    for (int g : {h, surface_.twin[h]}) tangent_[g] = tangent(g, tangent_[g].contact);
+    changed_[surface_.target(h)] = step_;
+  } while ((h = surface_.around(h)) != surface_.out[vertex]);
+}
+
+void Simplifier::gather_link(int vertex, int other) {
+  int h = surface_.out[vertex];
+  do {
+    const int opposite = surface_.next(h);
+    if (surface_.origin[opposite] != other && surface_.target(opposite) != other) link_.push_back(opposite);
+  } while ((h = surface_.around(h)) != surface_.out[vertex]);
+}
+
+double Simplifier::best_apex(const Eigen::Vector3d& origin, Eigen::Vector3d& apex) {
+  const auto shifted = [&](const HalfSpace& plane) -> HalfSpace {
+    return {plane.normal, plane.offset - plane.normal.dot(origin)};
+  };
+  Eigen::Vector3d cost = Eigen::Vector3d::Zero();
+  constraints_.clear();
+  for (int h : link_) {
+    const Eigen::Vector3d a = position_.row(surface_.origin[h]), b = position_.row(surface_.target(h));
+    cost += (a - origin).cross(b - origin);
+    constraints_.push_back(shifted(tangent_[h].outside));
+  }
+  auto status = programme_.solve(cost, constraints_, far_away, apex);
+  if (status == LinearProgramme::Status::infeasible) return infinity;
+  // An apex beyond the tangent on the far side of a link edge would turn that face's back to the body. This is rare,
+  // so that these constraints are added on demand; they also bound what was unbounded.
+  const auto far_side = [&](int h) -> HalfSpace {
+    const HalfSpace plane = shifted(tangent_[surface_.twin[h]].outside);
+    return {-plane.normal, -plane.offset};
+  };
+  if (status == LinearProgramme::Status::unbounded || std::ranges::any_of(link_, [&](int h) {
+        const HalfSpace side = far_side(h);
+        return side.normal.dot(apex) < side.offset - 1e-12;
+      })) {
+    for (int h : link_) constraints_.push_back(far_side(h));
+    status = programme_.solve(cost, constraints_, far_away, apex);
+    if (status != LinearProgramme::Status::optimal) return infinity;
+  }
+  return cost.dot(apex);
+}
+
+double Simplifier::collapse_cost(int h, Eigen::Vector3d& apex) {
+  const int u = surface_.origin[h], v = surface_.target(h);
+  const Eigen::Vector3d origin = position_.row(u);
+  const Eigen::Vector3d end = position_.row(v).transpose() - origin;
+  link_.clear();
+  gather_link(v, u);
+  double before = 0;  // Seen from u only the faces of v that do not touch u have volume.
+  for (int g : link_) {
+    const Eigen::Vector3d a = position_.row(surface_.origin[g]), b = position_.row(surface_.target(g));
+    before += (a - origin).cross(b - origin).dot(end);
+  }
+  gather_link(u, v);
+  const double after = best_apex(origin, apex);
+  apex += origin;
+  return after - before;
+}
+
+void Simplifier::consider(int h) {
+  h = std::min(h, surface_.twin[h]);
+  Eigen::Vector3d apex;
+  computed_[h] = step_;
+  const double cost = collapse_cost(h, apex);
+  if (cost < infinity) candidates_.push({cost, h, step_});
+}
+
+void Simplifier::collapse_to(int vertices) {
+  for (bool progress = true; progress && surface_.vertex_count > vertices;) {
+    progress = false;
+    for (int h = 0; h < surface_.size(); ++h)
+      if (surface_.alive[h] && h < surface_.twin[h]) consider(h);
+    while (surface_.vertex_count > vertices && !candidates_.empty()) {
+      const auto [cost, h, step] = candidates_.top();
+      candidates_.pop();
+      if (!surface_.alive[h] || h > surface_.twin[h] || step != computed_[h]) continue;
+      const int vertex = surface_.origin[h];
+      if (std::max(changed_[vertex], changed_[surface_.target(h)]) > step) {
+        consider(h);
+        continue;
+      }
+      if (!surface_.collapsible(h)) continue;
+      Eigen::Vector3d apex;
+      collapse_cost(h, apex);
+      surface_.collapse(h);
+      position_.row(vertex) = apex;
+      progress = true;
+      ++step_;
+      moved(vertex);
+      int g = surface_.out[vertex];
+      do consider(g);
+      while ((g = surface_.around(g)) != surface_.out[vertex]);
+    }
+    ++step_;
+  }
+}
+
+double Simplifier::polish() {
+  double gained = 0;
+  for (int v = 0; v < position_.rows(); ++v) {
+    if (surface_.out[v] < 0) continue;
+    link_.clear();
+    gather_link(v, -1);
+    Eigen::Vector3d apex;
+    const Eigen::Vector3d origin = position_.row(v);
+    const double change = best_apex(origin, apex);
+    if (!(change < 0)) continue;
+    gained -= change / 6;
+    position_.row(v) = origin + apex;
+    moved(v);
+  }
+  return gained;
+}
+
+Vertices Simplifier::vertices() const {
+  std::vector<int> left;
+  for (int v = 0; v < position_.rows(); ++v)
+    if (surface_.out[v] >= 0) left.push_back(v);
+  return position_(left, Eigen::all);
+}
+
+// The tetrahedron of supporting planes whose normals are those of a regular one in the principal frame of the points.
+Vertices enclosing_tetrahedron(const Vertices& points) {
+  const Eigen::Matrix3d covariance = points.transpose() * points / static_cast<double>(points.rows());
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(covariance);
+  const Eigen::Matrix3d frame = principal.eigenvectors() * principal.eigenvalues().cwiseSqrt().asDiagonal();
+  const Vertices white = points * frame.inverse().transpose();
+  // In the white frame the corners are c_i = sum over the other three planes; with normals n_i = -e_i, (1, 1, 1).
+  Eigen::Matrix<double, 4, 3> normals;
+  normals << 1, 1, 1, 1, -1, -1, -1, 1, -1, -1, -1, 1;
+  const Eigen::Vector4d reach = (white * normals.transpose()).colwise().maxCoeff();
+  Vertices corners(4, 3);
+  for (int i = 0; i < 4; ++i) {
+    Eigen::Matrix3d planes;
+    Eigen::Vector3d offsets;
+    for (int j = 0, row = 0; j < 4; ++j) {
+      if (j == i) continue;
+      planes.row(row) = normals.row(j);
+      offsets[row++] = reach[j];
+    }
+    corners.row(i) = frame * planes.inverse() * offsets;
+  }
+  return corners;
+}
+
+// The convex hull of the corners, scaled up about `centre`, by no more than rounding asks for, until it encloses.
+Mesh enclosing_hull(const Vertices& corners, const Vertices& points, const Point& centre) {
+  const double size = (points.rowwise() - centre).rowwise().norm().maxCoeff();
+  double scale = 1;
+  for (int attempt = 0; attempt < 60; ++attempt) {
+    const Vertices scaled = (scale * corners).rowwise() + centre;
+    Mesh mesh = convex_hull(scaled, 1e-12 * size).mesh;
+    const Vertices local = mesh.vertices.rowwise() - centre;
+    const auto planes = hull_planes({local, mesh.faces});
+    const Vertices inside = points.rowwise() - centre;
+    double excess = 0, inradius = infinity;
+    for (const auto& plane : planes.rowwise()) {
+      excess = std::max(excess, (inside * plane.head<3>().transpose()).maxCoeff() - plane[3]);
+      inradius = std::min(inradius, plane[3]);
+    }
+    if (excess <= 0) return mesh;
+    PARTWISE_CHECK(inradius, >, 0.0);
+    scale *= 1 + 2 * std::max(excess / inradius, 1e-16);
+  }
+  throw CheckFailed("simplify_hull: rounding left a point outside");
+}
+
+}  // namespace
+
+Mesh simplify_hull(const Mesh& hull, int max_vertices) {
+  if (max_vertices < 4)
+    throw InputError("max_vertices", fmt::format("{} vertices enclose no volume", max_vertices), "ask for 4 or more");
+  if (hull.vertices.rows() <= max_vertices) return hull;
+  const Point centre = hull.vertices.colwise().mean();
+  const Vertices centred = hull.vertices.rowwise() - centre;
+  const double size = centred.rowwise().norm().maxCoeff();
+
+  Simplifier simplifier({centred / size, hull.faces});
+  simplifier.collapse_to(max_vertices);
+  if (simplifier.vertex_count() > max_vertices)
+    return enclosing_hull(enclosing_tetrahedron(centred), hull.vertices, centre);
+  for (int round = 0; round < 20 && simplifier.polish() > 1e-4; ++round) {
+  }
+  return enclosing_hull(simplifier.vertices() * size, hull.vertices, centre);
+}
+
+}  // namespace partwise

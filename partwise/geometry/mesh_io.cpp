@@ -1,0 +1,158 @@
+#include "partwise/geometry/mesh_io.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <new>
+#include <stdexcept>
+
+#include "partwise/base/atomic_file.h"
+#include "partwise/base/error.h"
+#include "partwise/geometry/mesh_formats.h"
+#include "partwise/geometry/text_scanner.h"
+
+namespace partwise {
+namespace {
+
+enum class Format { off, obj, ply, stl, gltf, glb };
+
+Format format_of(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  for (const auto& [name, format] : {std::pair{".off", Format::off},
+                                     {".obj", Format::obj},
+                                     {".ply", Format::ply},
+                                     {".stl", Format::stl},
+                                     {".gltf", Format::gltf},
+                                     {".glb", Format::glb}}) {
+    if (equals_ignoring_case(ending, name)) return format;
+  }
+  throw InputError(path.string(),
+                   ending.empty() ? "has no ending that names a mesh format"
+                                  : fmt::format("{} is not the ending of a mesh format", shown(ending)),
+                   "use .off, .obj, .ply, .stl, .gltf or .glb");
+}
+
+// What a text in UTF-16 looks like to a reader of bytes is of no help to anyone.
+void refuse_utf16(const std::string& file, std::string_view bytes) {
+  if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) {
+    throw InputError(file, "is text in UTF-16", "save it as plain text (ASCII or UTF-8)");
+  }
+}
+
+Mesh read(const std::filesystem::path& path, Format format) {
+  const std::string bytes = read_bytes(path);
+  const std::string file = path.string();
+  if (bytes.empty()) throw InputError(file, "is empty", "export the mesh again");
+  if (format != Format::glb) refuse_utf16(file, bytes);
+  switch (format) {
+    case Format::off:
+      return read_off(file, bytes);
+    case Format::obj:
+      return read_obj(file, bytes);
+    case Format::ply:
+      return read_ply(file, bytes);
+    case Format::stl:
+      return read_stl(file, bytes);
+    case Format::gltf:
+      return read_gltf(file, bytes, path.parent_path());
+    case Format::glb:
+      return read_glb(file, bytes, path.parent_path());
+  }
+  throw CheckFailed("no reader for this format");
+}
+
+void check_indices(const Mesh& mesh) {
+  if (mesh.faces.size() == 0) return;
+  PARTWISE_CHECK(mesh.faces.minCoeff(), >=, 0);
+  PARTWISE_CHECK(mesh.faces.maxCoeff(), <, mesh.vertices.rows());
+}
+
+void write(const std::filesystem::path& path, std::span<const NamedMeshView> meshes) {
+  const Format format = format_of(path);
+  if (format == Format::gltf) {
+    throw InputError(path.string(), "glTF is written as one binary file only", "use the ending .glb");
+  }
+  const bool single_precision = format == Format::stl || format == Format::glb;
+  for (const NamedMeshView& each : meshes) {
+    check_indices(*each.mesh);
+    if (!each.mesh->vertices.allFinite()) {
+      throw InputError(path.string(), "the mesh holds coordinates that are not finite", "correct or remove them");
+    }
+    if (single_precision && each.mesh->vertices.size() > 0 &&
+        each.mesh->vertices.cwiseAbs().maxCoeff() > std::numeric_limits<float>::max()) {
+      throw InputError(path.string(), "coordinates are too large for the single precision of this format",
+                       "use .off, .obj or .ply");
+    }
+  }
+  AtomicFile file(path);
+  switch (format) {
+    case Format::off:
+      write_off(file.stream(), meshes);
+      break;
+    case Format::obj:
+      write_obj(file.stream(), meshes);
+      break;
+    case Format::ply:
+      write_ply(file.stream(), meshes);
+      break;
+    case Format::stl:
+      write_stl(file.stream(), meshes);
+      break;
+    case Format::gltf:
+    case Format::glb:
+      write_glb(file.stream(), meshes);
+      break;
+  }
+  file.commit();
+}
+
+}  // namespace
+
+std::string read_bytes(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) {
+    throw InputError(path.string(), "does not exist", "check the name and the folder");
+  }
+  if (!std::filesystem::is_regular_file(status)) {
+    throw InputError(path.string(), std::filesystem::is_directory(status) ? "is a folder" : "is not a regular file",
+                     "name a file");
+  }
+  errno = 0;
+  std::ifstream stream(path, std::ios::binary);
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  std::string bytes;
+  if (stream && !error) {
+    bytes.resize(size);
+    stream.read(bytes.data(), static_cast<std::streamsize>(size));
+  }
+  if (!stream || error) {
+    throw InputError(path.string(), fmt::format("cannot be read ({})", std::strerror(errno)),
+                     "check that you may read it");
+  }
+  return bytes;
+}
+
+Mesh read_mesh(const std::filesystem::path& path) {
+  const Format format = format_of(path);
+  try {
+    return read(path, format);
+  } catch (const std::bad_alloc&) {
+  } catch (const std::length_error&) {
+  }
+  throw InputError(path.string(), "does not fit into memory", "reduce the mesh or use a machine with more memory");
+}
+
+void write_mesh(const std::filesystem::path& path, const Mesh& mesh) {
+  const NamedMeshView only{.name = {}, .mesh = &mesh};
+  write(path, {&only, 1});
+}
+
+void write_meshes(const std::filesystem::path& path, std::span<const NamedMesh> meshes) {
+  std::vector<NamedMeshView> views;
+  for (const NamedMesh& each : meshes) views.push_back({each.name, &each.mesh, each.colour});
+  write(path, views);
+}
+
+}  // namespace partwise
