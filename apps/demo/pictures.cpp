@@ -1,0 +1,52 @@
+#include "pictures.h"
+
+#include "partwise/appearance/palette.h"
+
+namespace demo {
+namespace {
+
+using partwise::Image;
+using partwise::Mesh;
+using partwise::Point;
+using partwise::PreviewMesh;
+using partwise::PreviewScene;
+
+Point middle(const partwise::Vertices& points) {
+  return (points.colwise().minCoeff() + points.colwise().maxCoeff()) / 2;
+}
+
+Image draw(PreviewScene scene, double azimuth) {
+  partwise::PreviewView view;
+  view.azimuth = azimuth;
+  const partwise::PreviewSettings settings;
+  const double aspect = static_cast<double>(settings.width) / settings.height;
+  return render_preview(scene, frame_scene(scene, view, aspect), settings);
+}
+
+}  // namespace
+
+std::vector<PreviewMesh> hull_meshes(const partwise::Decomposition& parts, double apart) {
+  const Point centre = middle(parts.mesh.vertices);
+  std::vector<PreviewMesh> meshes;
+  for (const Mesh& hull : parts.hulls) {
+    PreviewMesh moved{hull, {}, partwise::part_colour(static_cast<int>(meshes.size())), 20};
+    moved.mesh.vertices.rowwise() += apart * (middle(hull.vertices) - centre);
+    meshes.push_back(std::move(moved));
+  }
+  return meshes;
+}
+
+ModelPictures draw_model(const Mesh& mesh, const partwise::Decomposition& parts, double azimuth) {
+  ModelPictures pictures;
+  PreviewScene scene;
+  scene.meshes.push_back({mesh, {}});
+  pictures.input = draw(scene, azimuth);
+  scene.meshes[0].mesh = parts.mesh;
+  for (const int label : parts.mesh_labels) scene.meshes[0].face_colours.push_back(partwise::part_colour(label));
+  pictures.parts = draw(scene, azimuth);
+  scene.meshes = hull_meshes(parts, 0.3);
+  pictures.hulls = draw(scene, azimuth);
+  return pictures;
+}
+
+}  // namespace demo
