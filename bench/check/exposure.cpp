@@ -51,7 +51,7 @@ struct Box {
 
 bool in_other(const std::vector<Hull>& hulls, int own, const Point& p) {
   for (int j = 0; j < static_cast<int>(hulls.size()); ++j)
-    if (j != own && hulls[j].contains(p)) return true;
+    if (j != own && hulls[j].strictly_contains(p)) return true;
   return false;
 }
 
@@ -61,14 +61,14 @@ class Search {
   Search(const Solid& solid, const std::vector<Hull>& hulls, bool exposed, Exposure& result)
       : solid_(solid), hulls_(hulls), exposed_(exposed), result_(result) {}
 
-  void run(double gap, double limit, std::int64_t boxes) {
+  void run(const ExposureSettings& settings, double radius) {
     for (int i = 0; i < static_cast<int>(hulls_.size()); ++i) {
       if (hulls_[i].flat()) continue;
       const CGAL::Bbox_3 box = CGAL::bbox_3(hulls_[i].vertices().begin(), hulls_[i].vertices().end());
       const Vector half(box.x_span() / 2, box.y_span() / 2, box.z_span() / 2);
       add({0, Point(box.xmin(), box.ymin(), box.zmin()) + half, half, i});
     }
-    while (!queue_.empty() && queue_.top().bound > goal(gap, limit) && result_.boxes < boxes) {
+    while (!queue_.empty() && !done(settings, radius)) {
       const Box box = queue_.top();
       queue_.pop();
       double step[3] = {0, 0, 0}, half[3] = {box.half.x(), box.half.y(), box.half.z()};
@@ -82,9 +82,11 @@ class Search {
   }
 
  private:
-  double goal(double gap, double limit) const {
-    const double near = result_.found + gap;
-    return result_.found <= limit && limit < near ? limit : near;
+  bool done(const ExposureSettings& settings, double radius) const {
+    const double bound = queue_.top().bound;
+    const double limit = settings.limit * radius;
+    if (exposed_ && result_.found <= limit && limit < bound) return result_.boxes >= settings.boxes_to_decide;
+    return bound <= result_.found + settings.gap * radius || result_.boxes >= settings.boxes;
   }
 
   void add(Box box) {
@@ -92,7 +94,7 @@ class Search {
     if (own.misses_box(box.centre, box.half)) return;
     if (exposed_)
       for (int j = 0; j < static_cast<int>(hulls_.size()); ++j)
-        if (j != box.hull && hulls_[j].contains_box(box.centre, box.half)) return;
+        if (j != box.hull && hulls_[j].strictly_contains(box.centre, box.half)) return;
     ++result_.boxes;
     const double reach = std::sqrt(box.half.squared_length());
     const double distance = solid_.distance(box.centre);
@@ -147,9 +149,8 @@ Exposures measure_exposure(const Solid& solid, const std::vector<Hull>& hulls, c
   Exposures result;
   sample(solid, hulls, settings, result);
   const double r = solid.radius();
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  Search(solid, hulls, false, result.strict).run(settings.gap * r, none, settings.boxes);
-  Search(solid, hulls, true, result.exposed).run(settings.gap * r, settings.limit * r, settings.boxes);
+  Search(solid, hulls, false, result.strict).run(settings, r);
+  Search(solid, hulls, true, result.exposed).run(settings, r);
   for (Exposure* exposure : {&result.strict, &result.exposed}) {
     exposure->sampled /= r;
     exposure->found /= r;
