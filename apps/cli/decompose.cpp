@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 #include <memory>
 
 #include "options.h"
@@ -50,14 +51,17 @@ void check_promise(const Options& options, const Decomposition& result) {
                        : "ask for a larger tolerance, or accept it with --max-hulls");
 }
 
-void write_outputs(const Options& options, const Decomposition& result, Outputs& outputs) {
+void write_outputs(const Options& options, const Mesh& mesh, const Decomposition& result, Outputs& outputs) {
   if (!options.labels.empty()) write_labels(outputs.staged("--labels"), result.labels);
   if (!options.hulls.empty()) write_meshes(outputs.staged("--hulls"), hull_meshes(result.hulls));
   if (!options.glb.empty()) {
     write_meshes(outputs.staged("--glb"), part_meshes(result.mesh, result.mesh_labels, result.parts()));
   }
-  if (!options.urdf.empty()) write_urdf(outputs.staged("--urdf"), result);
-  if (!options.mjcf.empty()) write_mjcf(outputs.staged("--mjcf"), result);
+  if (options.urdf.empty() && options.mjcf.empty()) return;
+  const std::string name = std::filesystem::path(options.mesh).stem().string();
+  const RobotBody body{.name = name, .hulls = result.hulls, .visual = &mesh, .mass = body_mass(mesh, result.hulls)};
+  if (!options.urdf.empty()) write_urdf(outputs.staged("--urdf"), body);
+  if (!options.mjcf.empty()) write_mjcf(outputs.staged("--mjcf"), body);
 }
 
 void report(const Options& options, const Decomposition& result, Run& run) {
@@ -98,7 +102,7 @@ void decompose_files(const Options& options, Run& run) {
   const Decomposition result = decompose(mesh, options.settings, run.progress);
   for (const auto& [stage, seconds] : result.seconds) run.seconds[stage] = seconds;
   check_promise(options, result);
-  run.stage("write", [&] { write_outputs(options, result, run.outputs); });
+  run.stage("write", [&] { write_outputs(options, mesh, result, run.outputs); });
   report(options, result, run);
 }
 
@@ -124,8 +128,8 @@ Action add(CLI::App& command) {
   add_file(command, "--labels", options->labels, "Write the part of each face, one a line (.seg)");
   add_file(command, "--hulls", options->hulls, "Write the hulls, one object a part (.obj or .glb)");
   add_file(command, "--glb", options->glb, "Write the parts, cut and coloured, one node each (.glb)");
-  add_file(command, "--urdf", options->urdf, "Write a robot link with convex collision parts (.urdf)");
-  add_file(command, "--mjcf", options->mjcf, "Write a MuJoCo body with convex parts (.xml)");
+  add_file(command, "--urdf", options->urdf, "Write a robot of one link (.urdf), its hulls beside it in NAME_hulls/");
+  add_file(command, "--mjcf", options->mjcf, "Write a MuJoCo body (.xml), its hulls beside it in NAME_hulls/");
   return [options](Run& run) { decompose_files(*options, run); };
 }
 

@@ -133,23 +133,34 @@ fs::path Outputs::staged(const std::string& option) {
 
 void Outputs::commit() {
   // What can fail comes first: devices, then targets that are in the way; renaming beside itself is all that is left.
-  std::vector<Move> moves;
+  // What a file brings along is moved before the file that names it.
+  std::vector<Move> companions, named;
   for (const Entry& entry : entries_) {
     if (entry.staging.empty()) continue;
+    const fs::path staged_file = entry.staging / entry.final.filename();
     if (entry.is_device) {
-      copy_to_device(entry.staging / entry.final.filename(), entry.final);
-    } else {
-      const std::vector<Move> more = moves_into(entry.staging, entry.final.parent_path());
-      moves.insert(moves.end(), more.begin(), more.end());
+      copy_to_device(staged_file, entry.final);
+      continue;
+    }
+    for (const Move& move : moves_into(entry.staging, entry.final.parent_path())) {
+      (move.first == staged_file ? named : companions).push_back(move);
     }
   }
-  for (const auto& [from, to] : moves) {
-    std::error_code error;
-    fs::create_directories(to.parent_path(), error);
-    if (!error) fs::rename(from, to, error);
-    if (error) {
-      throw InputError(to.string(), fmt::format("cannot be written ({})", error.message()),
-                       "name a file in a folder that you may write to");
+  for (const auto& [from, to] : companions) {
+    const auto same = [&](const Entry& entry) { return entry.final == to; };
+    if (std::ranges::any_of(entries_, same)) {
+      throw InputError(to.string(), "is asked for and also belongs to another output", "choose another name");
+    }
+  }
+  for (const std::vector<Move>* moves : {&companions, &named}) {
+    for (const auto& [from, to] : *moves) {
+      std::error_code error;
+      fs::create_directories(to.parent_path(), error);
+      if (!error) fs::rename(from, to, error);
+      if (error) {
+        throw InputError(to.string(), fmt::format("cannot be written ({})", error.message()),
+                         "name a file in a folder that you may write to");
+      }
     }
   }
 }
