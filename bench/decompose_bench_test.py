@@ -1,5 +1,5 @@
 """The harness on small answers known beforehand; and from end to end with a program of a few lines in place of partwise,
-which puts a box around every mesh: decompose_bench_test.py CHECKER"""
+which puts a box around every mesh: decompose_bench_test.py CHECKER [HACD]"""
 
 import io
 import math
@@ -17,7 +17,7 @@ from harness.decompose import Settings, decompose
 from harness.dissertation import AVERAGE, TABLE_2_3
 from harness.rand_error import People, rand_error
 
-CHECKER = ""
+CHECKER = HACD = ""
 CORNERS = [(x, y, z) for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)]
 SIDES = [(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4),
          (1, 5, 7), (1, 7, 3)]
@@ -167,6 +167,13 @@ class EndToEnd(unittest.TestCase):
         self.assertIn("the same bytes on 1 of 1", self.bench("--determinism"))
         self.assertIn("1.000", self.bench("--remove", "0.1"))
 
+    def test_peer(self):
+        if not HACD:
+            self.skipTest("built without Bullet's HACD")
+        printed = self.bench("--hacd", "1", "--hacd-program", HACD)
+        cube = next(line.split() for line in printed.splitlines() if line.startswith("cube") and "1.000" in line)
+        self.assertEqual(cube[6:8], ["1", "1.000"])
+
     def test_exit_without_files(self):
         program = self.folder / "idle"
         program.write_text("#!/bin/sh\n")
@@ -178,4 +185,5 @@ class EndToEnd(unittest.TestCase):
 
 if __name__ == "__main__":
     CHECKER = sys.argv.pop(1)
+    HACD = sys.argv.pop(1) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else ""
     unittest.main()

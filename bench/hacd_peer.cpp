@@ -9,7 +9,7 @@
 // simplification included. The exit status is 0, 1 when it cannot be done, or 2 for wrong usage.
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Count_stop_predicate.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_policies.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 #include <hacdHACD.h>
 
@@ -37,7 +37,7 @@ Shape simplified(const Shape& shape, int faces) {
         Surface::null_face())
       throw std::runtime_error("the mesh is not manifold: HACD's simplification needs it to be");
   if (static_cast<int>(surface.number_of_faces()) > faces) {
-    simplification::GarlandHeckbert_policies<Surface, Kernel> policies(surface);
+    simplification::GarlandHeckbert_plane_policies<Surface, Kernel> policies(surface);
     const simplification::Count_stop_predicate<Surface> stop(3 * faces / 2);  // edges
     simplification::edge_collapse(
         surface, stop, CGAL::parameters::get_cost(policies.get_cost()).get_placement(policies.get_placement()));
@@ -74,7 +74,8 @@ std::vector<Shape> hacd(const Shape& shape, double tolerance) {
   solver.SetAddExtraDistPoints(false);
   solver.SetAddNeighboursDistPoints(false);
   solver.SetAddFacesPoints(false);
-  solver.SetConcavity(tolerance / diagonal * solver.GetScaleFactor());  // HACD scales the box's diagonal to this factor
+  solver.SetConcavity(tolerance / (diagonal / 2) *
+                      solver.GetScaleFactor());  // half the box's diagonal becomes this factor
   if (!solver.Compute()) throw std::runtime_error("HACD failed");
   std::vector<Shape> hulls;
   for (std::size_t cluster = 0; cluster < solver.GetNClusters(); ++cluster) {

@@ -1,9 +1,12 @@
 #include "bench/check/exposure.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <queue>
 #include <random>
+#include <stdexcept>
+#include <string>
 
 namespace partwise::bench {
 namespace {
@@ -118,7 +121,10 @@ class Search {
   std::priority_queue<Box> queue_;
 };
 
-void sample(const Solid& solid, const std::vector<Hull>& hulls, const ExposureSettings& settings, Exposures& result) {
+// Returns the hulls of the farthest samples, strict and exposed.
+std::array<int, 2> sample(const Solid& solid, const std::vector<Hull>& hulls, const ExposureSettings& settings,
+                          Exposures& result) {
+  std::array<int, 2> sampled_hull{-1, -1};
   double total = 0;
   for (const Hull& hull : hulls) total += hull.volume();
   std::mt19937_64 random(settings.seed);
@@ -136,25 +142,31 @@ void sample(const Solid& solid, const std::vector<Hull>& hulls, const ExposureSe
       for (Exposure* exposure : {&result.strict, &result.exposed}) {
         if (distance <= exposure->sampled) continue;
         if (exposure == &result.exposed && in_other(hulls, i, p)) continue;
-        exposure->sampled = exposure->found = distance;
-        exposure->hull = i;
+        exposure->sampled = distance;
+        sampled_hull[exposure == &result.exposed] = i;
       }
     }
   }
+  return sampled_hull;
 }
 
 }  // namespace
 
 Exposures measure_exposure(const Solid& solid, const std::vector<Hull>& hulls, const ExposureSettings& settings) {
   Exposures result;
-  sample(solid, hulls, settings, result);
+  const std::array<int, 2> sampled_hull = sample(solid, hulls, settings, result);
   const double r = solid.radius();
-  Search(solid, hulls, false, result.strict).run(settings, r);
-  Search(solid, hulls, true, result.exposed).run(settings, r);
   for (Exposure* exposure : {&result.strict, &result.exposed}) {
+    const bool exposed = exposure == &result.exposed;
+    Search(solid, hulls, exposed, *exposure).run(settings, r);
+    if (exposure->sampled > exposure->bound + 1e-9 * r)
+      throw std::logic_error("the search missed what a sample found: " + std::to_string(exposure->sampled / r) + " > " +
+                             std::to_string(exposure->bound / r));
+    if (exposure->sampled > exposure->found)
+      exposure->found = exposure->sampled, exposure->hull = sampled_hull[exposed];
     exposure->sampled /= r;
     exposure->found /= r;
-    exposure->bound /= r;
+    exposure->bound = std::max(exposure->bound / r, exposure->found);
   }
   return result;
 }

@@ -28,7 +28,7 @@ struct ExposureSettings {
 
 struct Exposure {
   double sampled = 0;  // shares of R: by samples alone,
-  double found = 0;    // by samples and search,
+  double found = 0;    // by samples or search,
   double bound = 0;    // and above which there is none
   int hull = -1;       // where `found` was; -1 when nothing sticks out
   int boxes = 0;
@@ -39,7 +39,8 @@ struct Exposures {
   int samples = 0;
 };
 
-// `limit` applies to `exposed`.
+// `limit` applies to `exposed`. Samples and search know nothing of each other: throws std::logic_error when a sample
+// lies above the search's bound.
 Exposures measure_exposure(const Solid& solid, const std::vector<Hull>& hulls, const ExposureSettings& settings);
 
 }  // namespace partwise::bench
