@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <queue>
 #include <ranges>
@@ -23,7 +24,9 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double on_line = 1e-9;    // What is so near to a line or a point is taken to lie on it.
 constexpr int polished_early = 24;  // From so many vertices on all are moved to their best places after each collapse.
-constexpr double far_away = 8;      // New vertices lie within so many standard deviations of the hull.
+// New vertices lie within so many standard deviations of the old ones. Near ones first: greed for volume alone grows
+// spikes, which later collapses have to pay for; far ones are there to get past a dead end.
+constexpr double reaches[] = {2, 8};
 
 // The surface that is simplified. `body` is the given hull, about the origin and of unit size; the surface is a
 // sphere whose every face plane has the body on its inner side, so that it is star-shaped about each point of the body
@@ -75,6 +78,7 @@ class Simplifier {
   std::vector<HalfSpace> constraints_;
   std::priority_queue<Candidate> candidates_;
   int step_ = 0;
+  double reach_ = reaches[0];
   std::vector<int> computed_;  // of each half-edge the step of its latest candidate
   std::vector<int> changed_;   // of each vertex the last step that moved it or a neighbour
 };
@@ -171,7 +175,7 @@ double Simplifier::best_apex(const Eigen::Vector3d& origin, Eigen::Vector3d& ape
     const HalfSpace plane = shifted(tangent_[surface_.twin[h]].outside);
     constraints_.push_back({-plane.normal, -plane.offset});
   }
-  const Optimum optimum = minimise(cost, constraints_, far_away);
+  const Optimum optimum = minimise(cost, constraints_, reach_);
   if (optimum.status != Optimum::Status::optimal) return infinity;
   apex = origin + optimum.x;
   // An apex often falls on a neighbour; there it shall be to the bit, lest a face without a direction be left between.
@@ -207,8 +211,10 @@ void Simplifier::consider(int h) {
 }
 
 void Simplifier::collapse_to(int vertices) {
-  for (bool progress = true; progress && surface_.vertex_count > vertices;) {
-    progress = false;
+  std::size_t tried = 0;  // reaches at which no edge was left to collapse
+  while (surface_.vertex_count > vertices && tried < std::size(reaches)) {
+    bool progress = false;
+    reach_ = reaches[tried];
     for (int h = 0; h < surface_.size(); ++h)
       if (surface_.alive[h] && h < surface_.twin[h]) consider(h);
     while (surface_.vertex_count > vertices && !candidates_.empty()) {
@@ -237,7 +243,9 @@ void Simplifier::collapse_to(int vertices) {
       }
     }
     ++step_;
+    if (!progress) ++tried;
   }
+  reach_ = reaches[0];
 }
 
 double Simplifier::polish() {
