@@ -14,7 +14,7 @@ std::span<const Model> models() {
       {"rocking_horse.glb", "Rocking horse", "Sangio", cc0, 30},
       {"chair.off", "Chair", "Ingoenius", cc0, 35},
       {"table.obj", "Table", "MZiemys", cc0, 30},
-      {"jar.off", "Jar", "Scopia", by, 25},
+      {"jar.off", "Jar", "Scopia", by, 110},
       {"coffee_cup.stl", "Coffee cup", "Reduno", cc0, 35},
       {"scissors.obj", "Scissors", "Celticluis", cc0, 30},
       {"faucet.ply", "Garden tap", "Scopia", by, 50},
