@@ -62,7 +62,7 @@ void judge_hulls(const std::vector<Hull>& hulls, double radius, Verdict& verdict
 
 void judge_parts(const Options& options, const Shape& shape, const std::vector<Hull>& hulls, double radius,
                  Verdict& verdict) {
-  const Labelling labelling = judge_labels(shape, read_labels(options.labels), hulls);
+  const Labelling labelling = judge_labels(shape, read_labels(options.labels), hulls, rounding * radius);
   verdict.report["parts"] = labelling.parts;
   verdict.report["labels_complete"] = labelling.complete;
   verdict.report["parts_connected"] = labelling.parts_connected;

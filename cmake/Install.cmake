@@ -8,9 +8,5 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/PartwiseConfig.cmake.in 
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/PartwiseConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/PartwiseConfig.cmake ${PROJECT_BINARY_DIR}/PartwiseConfigVersion.cmake
         DESTINATION ${PARTWISE_INSTALL_CMAKE})
-foreach(shared data models)
-  if(EXISTS ${PROJECT_SOURCE_DIR}/${shared})
-    install(DIRECTORY ${shared} DESTINATION ${PARTWISE_INSTALL_SHARE})
-  endif()
-endforeach()
+install(DIRECTORY data DESTINATION ${PARTWISE_INSTALL_SHARE} PATTERN corpus EXCLUDE)  # the corpus is for tests only
 install(FILES LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -1,11 +1,11 @@
 # partwise_room(NAME DIRS dir... [LINK target...] [PRIVATE target...] [HEADERS target...] [PACKAGES package...]
-#               [TEST_LINK target...])
+#               [INTERNAL header...] [TEST_LINK target...])
 # A room of the library: every .cpp of its folders, less the tests, becomes the static library partwise_NAME
 # (alias Partwise::NAME); every *_test.cpp becomes the one test program NAME_tests, which ctest lists test by test.
 # LINK is part of the room's interface, PRIVATE is linked only, HEADERS are header-only libraries that are gone once the
-# room is compiled. PACKAGES are what find_package(Partwise) has to find for whoever links the installed room.
+# room is compiled. INTERNAL headers are not installed. PACKAGES are what find_package(Partwise) has to find for whoever links the installed room.
 function(partwise_room name)
-  cmake_parse_arguments(ROOM "" "" "DIRS;LINK;PRIVATE;HEADERS;PACKAGES;TEST_LINK" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "DIRS;LINK;PRIVATE;HEADERS;INTERNAL;PACKAGES;TEST_LINK" ${ARGN})
   set(sources)
   set(tests)
   foreach(dir IN LISTS ROOM_DIRS)
@@ -40,9 +40,13 @@ endfunction()
 function(partwise_install_room name)
   install(TARGETS partwise_${name} EXPORT Partwise-${name})
   install(EXPORT Partwise-${name} NAMESPACE Partwise:: DESTINATION ${PARTWISE_INSTALL_CMAKE})
+  set(excluded PATTERN "test_*" EXCLUDE)
+  foreach(header IN LISTS ROOM_INTERNAL)
+    list(APPEND excluded PATTERN ${header} EXCLUDE)
+  endforeach()
   foreach(dir IN LISTS ROOM_DIRS)
     install(DIRECTORY ${dir}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/partwise/${dir}
-            OPTIONAL FILES_MATCHING PATTERN "*.h" PATTERN "test_*" EXCLUDE)
+            OPTIONAL FILES_MATCHING PATTERN "*.h" ${excluded})
   endforeach()
   set(below ${ROOM_LINK} ${ROOM_PRIVATE})
   list(FILTER below INCLUDE REGEX "^Partwise::")

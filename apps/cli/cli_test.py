@@ -6,6 +6,7 @@
 import json
 import os
 import pty
+import re
 import signal
 import subprocess
 import sys
@@ -149,8 +150,13 @@ class Results(CommandLine):
         lines = (self.folder / "a.obj").read_text().splitlines()
         self.assertEqual(sum(line.startswith("o ") for line in lines), report["parts"])
         self.assertEqual((self.folder / "a.glb").read_bytes()[:4], b"glTF")
-        for name in outputs.values():
-            self.assertGreater((self.folder / name).stat().st_size, 0, name)
+        for name in ("a.urdf", "a.xml"):
+            text = (self.folder / name).read_text()
+            meshes = re.findall(r'"([^"]*\.obj)"', text)
+            self.assertGreaterEqual(len(meshes), report["parts"])
+            for mesh in meshes:
+                self.assertTrue((self.folder / mesh).is_file() or (self.folder / "a_hulls" / mesh).is_file(), mesh)
+        self.assert_files("a.json", "a_hulls", *outputs.values())
 
     def test_json_on_standard_output_is_all_there_is(self):
         result = self.decompose("--json", "-")
@@ -227,6 +233,12 @@ class Outputs(CommandLine):
         self.assertEqual(result.returncode, 1)
         self.assertEqual(result.stderr.count("\n"), 1)
 
+    def test_an_output_that_another_one_brings_along(self):
+        (self.folder / "a_hulls").mkdir()
+        result = self.decompose("--urdf", "a.urdf", "--hulls", "a_hulls/hull_000.obj")
+        self.assert_refused(result, 1, "a_hulls/hull_000.obj", "another output")
+        self.assert_files("a_hulls")
+
     def test_devices_and_links(self):
         result = self.decompose("--quiet", "--labels", "/dev/stdout")
         self.assert_done(result)
@@ -267,6 +279,16 @@ class Stopping(CommandLine):
         path.write_text("\n".join(lines) + "\n")
         return path
 
+    def wait_for_handler(self, process, number):
+        deadline = time.monotonic() + 30
+        while time.monotonic() < deadline:
+            status = Path(f"/proc/{process.pid}/status").read_text()
+            caught = int(status.split("SigCgt:")[1].split()[0], 16)
+            if caught >> (number - 1) & 1:
+                return
+            time.sleep(0.001)
+        self.fail("the program does not catch the signal")
+
     def test_ctrl_c_stops_cleanly(self):
         mesh = self.big_mesh()
         for number in (signal.SIGINT, signal.SIGTERM):
@@ -274,7 +296,7 @@ class Stopping(CommandLine):
                 [PROGRAM, "decompose", mesh, "--tolerance", "0.01", "--labels", self.folder / "a.seg"],
                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
             )
-            time.sleep(0.3)
+            self.wait_for_handler(process, number)
             process.send_signal(number)
             output, message = process.communicate(timeout=60)
             self.assertEqual(process.returncode, 128 + number, message)

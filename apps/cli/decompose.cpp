@@ -5,9 +5,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <map>
+#include <filesystem>
 #include <memory>
 
+#include "options.h"
 #include "part_meshes.h"
 #include "partwise/base/error.h"
 #include "partwise/geometry/mesh_io.h"
@@ -23,15 +24,9 @@ struct Options {
   std::string labels, hulls, glb, urdf, mjcf;
 };
 
-const std::map<std::string, ConcavityMeasure> measures = {{"hull", ConcavityMeasure::hull},
-                                                          {"valley", ConcavityMeasure::valley}};
-
 const char* measure_name(ConcavityMeasure measure) { return measure == ConcavityMeasure::hull ? "hull" : "valley"; }
 
 void check_usage(const DecompositionSettings& settings) {
-  if (!std::isfinite(settings.tolerance) || settings.tolerance <= 0) {
-    throw UsageError(fmt::format("--tolerance {}: must be a positive number", settings.tolerance));
-  }
   if (settings.cup_repair && settings.measure != ConcavityMeasure::valley) {
     throw UsageError("--cup-repair belongs to --measure valley; hull does not need it");
   }
@@ -56,14 +51,17 @@ void check_promise(const Options& options, const Decomposition& result) {
                        : "ask for a larger tolerance, or accept it with --max-hulls");
 }
 
-void write_outputs(const Options& options, const Decomposition& result, Outputs& outputs) {
+void write_outputs(const Options& options, const Mesh& mesh, const Decomposition& result, Outputs& outputs) {
   if (!options.labels.empty()) write_labels(outputs.staged("--labels"), result.labels);
   if (!options.hulls.empty()) write_meshes(outputs.staged("--hulls"), hull_meshes(result.hulls));
   if (!options.glb.empty()) {
     write_meshes(outputs.staged("--glb"), part_meshes(result.mesh, result.mesh_labels, result.parts()));
   }
-  if (!options.urdf.empty()) write_urdf(outputs.staged("--urdf"), result);
-  if (!options.mjcf.empty()) write_mjcf(outputs.staged("--mjcf"), result);
+  if (options.urdf.empty() && options.mjcf.empty()) return;
+  const std::string name = std::filesystem::path(options.mesh).stem().string();
+  const RobotBody body{.name = name, .hulls = result.hulls, .visual = &mesh, .mass = body_mass(mesh, result.hulls)};
+  if (!options.urdf.empty()) write_urdf(outputs.staged("--urdf"), body);
+  if (!options.mjcf.empty()) write_mjcf(outputs.staged("--mjcf"), body);
 }
 
 void report(const Options& options, const Decomposition& result, Run& run) {
@@ -104,7 +102,7 @@ void decompose_files(const Options& options, Run& run) {
   const Decomposition result = decompose(mesh, options.settings, run.progress);
   for (const auto& [stage, seconds] : result.seconds) run.seconds[stage] = seconds;
   check_promise(options, result);
-  run.stage("write", [&] { write_outputs(options, result, run.outputs); });
+  run.stage("write", [&] { write_outputs(options, mesh, result, run.outputs); });
   report(options, result, run);
 }
 
@@ -114,35 +112,24 @@ Action add(CLI::App& command) {
   command.add_option("MESH", options->mesh, "The mesh: .off, .obj, .ply, .stl, .gltf or .glb")
       ->required()
       ->type_name("");
-  command
-      .add_option("--tolerance", settings.tolerance,
-                  "Largest concavity of a part, as a share of R, the radius of the "
-                  "mesh's bounding sphere; 0.1 is coarse, 0.02 fine")
-      ->required()
-      ->type_name("T");
+  add_positive(command, "--tolerance", settings.tolerance,
+               "Largest concavity of a part, as a share of R, the radius of the mesh's bounding sphere; 0.1 is coarse, "
+               "0.02 fine")
+      ->required();
   command.add_flag("--absolute", settings.absolute, "T is in model units");
-  command
-      .add_option("--measure", settings.measure,
-                  "hull: no hull leaves the solid by more than T [default]; valley: no valley between hull edges is "
-                  "deeper than T, as published")
-      ->transform(CLI::CheckedTransformer(measures).description(""))
-      ->type_name("hull|valley");
+  add_choice(command, "--measure", settings.measure,
+             Choices<ConcavityMeasure>{{"hull", ConcavityMeasure::hull}, {"valley", ConcavityMeasure::valley}},
+             "hull: no hull leaves the solid by more than T [default]; valley: no valley between hull edges is deeper "
+             "than T, as published");
   command.add_flag("--cup-repair", settings.cup_repair, "With valley: also split cups (section 2.4.8)");
-  command
-      .add_option("--max-hulls", settings.max_hulls,
-                  "At most N parts; T may then be exceeded, concavity says by how much")
-      ->type_name("N")
-      ->check(CLI::Range(1, std::numeric_limits<int>::max()).description(""));
-  command.add_option("--max-hull-vertices", settings.max_hull_vertices, "At most N vertices a hull (4 or more)")
-      ->type_name("N")
-      ->check(CLI::Range(4, std::numeric_limits<int>::max()).description(""));
-  command.add_option("--labels", options->labels, "Write the part of each face, one a line (.seg)")->type_name("FILE");
-  command.add_option("--hulls", options->hulls, "Write the hulls, one object a part (.obj or .glb)")->type_name("FILE");
-  command.add_option("--glb", options->glb, "Write the parts, cut and coloured, one node each (.glb)")
-      ->type_name("FILE");
-  command.add_option("--urdf", options->urdf, "Write a robot link with convex collision parts (.urdf)")
-      ->type_name("FILE");
-  command.add_option("--mjcf", options->mjcf, "Write a MuJoCo body with convex parts (.xml)")->type_name("FILE");
+  add_count(command, "--max-hulls", settings.max_hulls, 1,
+            "At most N parts; T may then be exceeded, and concavity says by how much");
+  add_count(command, "--max-hull-vertices", settings.max_hull_vertices, 4, "At most N vertices a hull, 4 or more");
+  add_file(command, "--labels", options->labels, "Write the part of each face, one a line (.seg)");
+  add_file(command, "--hulls", options->hulls, "Write the hulls, one object a part (.obj or .glb)");
+  add_file(command, "--glb", options->glb, "Write the parts, cut and coloured, one node each (.glb)");
+  add_file(command, "--urdf", options->urdf, "Write a robot of one link (.urdf), its hulls beside it in NAME_hulls/");
+  add_file(command, "--mjcf", options->mjcf, "Write a MuJoCo body (.xml), its hulls beside it in NAME_hulls/");
   return [options](Run& run) { decompose_files(*options, run); };
 }
 

@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "options.h"
 #include "partwise/base/atomic_file.h"
 #include "partwise/base/error.h"
 #include "progress_line.h"
@@ -34,7 +35,7 @@ constexpr int exit_signal = 128;
 
 struct CommonOptions {
   int threads = 0;
-  std::uint64_t seed = 0;
+  int seed = 0;
   bool quiet = false;
   std::string json;
 };
@@ -53,20 +54,17 @@ void say(std::string message) {
 }
 
 void add_common_options(CLI::App& app, CommonOptions& common) {
-  app.add_option("--threads", common.threads, "Use at most N threads [all cores]")
-      ->type_name("N")
-      ->check(CLI::Range(1, 4096));
-  app.add_option("--seed", common.seed, "Start of whatever is drawn by chance; the same seed gives the same bytes [0]")
-      ->type_name("N");
+  add_count(app, "--threads", common.threads, 1, "Use at most N threads [all cores]");
+  add_count(app, "--seed", common.seed, 0, "Start of whatever is drawn by chance; the same seed, the same bytes [0]");
   app.add_flag("--quiet", common.quiet, "No progress and no summary");
-  app.add_option("--json", common.json, "Write a report of one JSON object; - for standard output")->type_name("FILE");
+  add_file(app, "--json", common.json, "Write a report of one JSON object; - for standard output");
 }
 
 std::unique_ptr<Command> add_command(CLI::App& program, const Verb& verb) {
   auto command = std::make_unique<Command>();
   command->app = program.add_subcommand(verb.name, verb.summary);
-  command->app->description(verb.details);
-  command->app->footer(std::string("Example:\n") + verb.example);
+  command->app->group("Verbs");
+  command->app->footer(fmt::format("{}\n\nExample:\n{}", verb.details, verb.example));
   command->action = verb.add(*command->app);
   add_common_options(*command->app, command->common);
   return command;
@@ -101,7 +99,7 @@ int execute(const Command& command) {
   ProgressLine line(common.quiet);
   try {
     Run run;
-    run.seed = common.seed;
+    run.seed = static_cast<std::uint64_t>(common.seed);
     run.progress = line.progress();
     if (!common.json.empty() && common.json != "-") run.outputs.add("--json", common.json);
     command.action(run);
@@ -132,7 +130,8 @@ int execute(const Command& command) {
 int parse_and_execute(int argc, char** argv) {
   CLI::App program("Turns shapes into parts.", "partwise");
   program.set_version_flag("--version", "partwise " PARTWISE_VERSION);
-  program.require_subcommand(0, 1);  // checked below, for a message that helps
+  program.get_formatter()->label("SUBCOMMAND", "VERB");
+  program.get_formatter()->label("REQUIRED", "(required)");
   program.footer("partwise VERB --help says more and gives an example.");
   std::vector<std::unique_ptr<Command>> commands;
   commands.reserve(verbs.size());

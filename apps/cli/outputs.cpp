@@ -10,6 +10,7 @@
 #include <fstream>
 #include <utility>
 
+#include "partwise/base/atomic_file.h"
 #include "partwise/base/error.h"
 
 namespace partwise::cli {
@@ -21,6 +22,15 @@ std::string lower_ending(const fs::path& path) {
   std::string ending = path.extension().string();
   std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return ending;
+}
+
+// Absolute, without links or dots, so that equal places have equal names.
+fs::path final_place(const fs::path& path) {
+  std::error_code error;
+  const fs::path followed = follow_links(fs::absolute(path));
+  if (is_written_in_place(followed)) return followed;
+  const fs::path place = fs::weakly_canonical(followed, error);
+  return error ? followed.lexically_normal() : place;
 }
 
 void copy_to_device(const fs::path& from, const fs::path& device) {
@@ -70,8 +80,7 @@ void Outputs::refuse_same_file(const Entry& entry) const {
 
 void Outputs::add_input(const std::string& option, const fs::path& path) {
   Entry entry{.option = option, .path = path, .is_input = true};
-  std::error_code missing;
-  entry.final = fs::weakly_canonical(fs::absolute(path), missing);
+  entry.final = final_place(path);
   refuse_same_file(entry);
   entries_.push_back(std::move(entry));
 }
@@ -84,15 +93,14 @@ void Outputs::add(const std::string& option, const fs::path& path, const std::ve
   }
   if (!path.has_filename()) throw UsageError(fmt::format("{}: '{}' is not the name of a file", option, path.string()));
   Entry entry{.option = option, .path = path};
-  std::error_code error;
-  entry.final = fs::weakly_canonical(fs::absolute(path), error);
-  if (error) entry.final = fs::absolute(path).lexically_normal();
+  entry.final = final_place(path);
   refuse_same_file(entry);
 
-  const fs::file_status status = fs::status(entry.final, error);
-  if (fs::is_directory(status))
+  std::error_code error;
+  if (fs::is_directory(entry.final, error)) {
     throw InputError(path.string(), "is a folder", fmt::format("name a file for {}", option));
-  entry.is_device = fs::exists(status) && !fs::is_regular_file(status);
+  }
+  entry.is_device = is_written_in_place(entry.final);
   if (!entry.is_device) {
     const fs::path folder = entry.final.parent_path();
     if (!fs::is_directory(folder, error)) {
@@ -125,23 +133,34 @@ fs::path Outputs::staged(const std::string& option) {
 
 void Outputs::commit() {
   // What can fail comes first: devices, then targets that are in the way; renaming beside itself is all that is left.
-  std::vector<Move> moves;
+  // What a file brings along is moved before the file that names it.
+  std::vector<Move> companions, named;
   for (const Entry& entry : entries_) {
     if (entry.staging.empty()) continue;
+    const fs::path staged_file = entry.staging / entry.final.filename();
     if (entry.is_device) {
-      copy_to_device(entry.staging / entry.final.filename(), entry.final);
-    } else {
-      const std::vector<Move> more = moves_into(entry.staging, entry.final.parent_path());
-      moves.insert(moves.end(), more.begin(), more.end());
+      copy_to_device(staged_file, entry.final);
+      continue;
+    }
+    for (const Move& move : moves_into(entry.staging, entry.final.parent_path())) {
+      (move.first == staged_file ? named : companions).push_back(move);
     }
   }
-  for (const auto& [from, to] : moves) {
-    std::error_code error;
-    fs::create_directories(to.parent_path(), error);
-    if (!error) fs::rename(from, to, error);
-    if (error) {
-      throw InputError(to.string(), fmt::format("cannot be written ({})", error.message()),
-                       "name a file in a folder that you may write to");
+  for (const auto& [from, to] : companions) {
+    const auto same = [&](const Entry& entry) { return entry.final == to; };
+    if (std::ranges::any_of(entries_, same)) {
+      throw InputError(to.string(), "is asked for and also belongs to another output", "choose another name");
+    }
+  }
+  for (const std::vector<Move>* moves : {&companions, &named}) {
+    for (const auto& [from, to] : *moves) {
+      std::error_code error;
+      fs::create_directories(to.parent_path(), error);
+      if (!error) fs::rename(from, to, error);
+      if (error) {
+        throw InputError(to.string(), fmt::format("cannot be written ({})", error.message()),
+                         "name a file in a folder that you may write to");
+      }
     }
   }
 }

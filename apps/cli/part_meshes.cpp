@@ -2,25 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <unordered_map>
 
-namespace partwise::cli {
+#include "partwise/appearance/palette.h"
 
-Eigen::Vector3f part_colour(int index) {
-  // Steps of the golden ratio around the circle of hues never come close to each other early; two brightnesses tell
-  // neighbours apart for those who see hue poorly.
-  constexpr double golden_ratio = 0.6180339887498949;
-  const double hue = 6 * std::fmod(0.07 + golden_ratio * index, 1.0);
-  const double bright = index % 2 == 0 ? 0.80 : 0.55;
-  Eigen::Vector3f colour;
-  for (int channel = 0; channel < 3; ++channel) {
-    const double position = std::fmod(hue + 6 - 2 * channel, 6.0);
-    const double weight = std::clamp(2 - std::min(position, 6 - position), 0.0, 1.0);
-    colour[channel] = static_cast<float>(bright * (0.12 + 0.88 * weight));
-  }
-  return colour;
-}
+namespace partwise::cli {
 
 std::vector<NamedMesh> part_meshes(const Mesh& mesh, std::span<const int> labels, int parts) {
   std::vector<std::vector<Eigen::Index>> faces(static_cast<std::size_t>(parts));

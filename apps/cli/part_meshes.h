@@ -9,10 +9,6 @@
 
 namespace partwise::cli {
 
-// Colour of part `index` in linear RGB: neighbours in number are far apart in hue; the same part, the same colour,
-// always.
-Eigen::Vector3f part_colour(int index);
-
 // One member a part, "part_0" first, with vertices of its own. labels: one a face, 0 .. parts - 1.
 std::vector<NamedMesh> part_meshes(const Mesh& mesh, std::span<const int> labels, int parts);
 

@@ -14,7 +14,7 @@ struct CoverageSettings {
   int lines = 64;           // along the longer side of a grid
   int repetitions_min = 8;  // directions
   int repetitions_max = 64;
-  double relative_error = 2e-3;  // of the union's volume over the solid's (for an open mesh, of the union's volume)
+  double relative_error = 1e-3;  // of the union's volume over the solid's (for an open mesh, of the union's volume)
   std::uint64_t seed = 1;
 };
 

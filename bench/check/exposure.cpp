@@ -1,9 +1,12 @@
 #include "bench/check/exposure.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <queue>
 #include <random>
+#include <stdexcept>
+#include <string>
 
 namespace partwise::bench {
 namespace {
@@ -51,7 +54,7 @@ struct Box {
 
 bool in_other(const std::vector<Hull>& hulls, int own, const Point& p) {
   for (int j = 0; j < static_cast<int>(hulls.size()); ++j)
-    if (j != own && hulls[j].contains(p)) return true;
+    if (j != own && hulls[j].strictly_contains(p)) return true;
   return false;
 }
 
@@ -61,14 +64,14 @@ class Search {
   Search(const Solid& solid, const std::vector<Hull>& hulls, bool exposed, Exposure& result)
       : solid_(solid), hulls_(hulls), exposed_(exposed), result_(result) {}
 
-  void run(double gap, double limit, std::int64_t boxes) {
+  void run(const ExposureSettings& settings, double radius) {
     for (int i = 0; i < static_cast<int>(hulls_.size()); ++i) {
       if (hulls_[i].flat()) continue;
       const CGAL::Bbox_3 box = CGAL::bbox_3(hulls_[i].vertices().begin(), hulls_[i].vertices().end());
       const Vector half(box.x_span() / 2, box.y_span() / 2, box.z_span() / 2);
       add({0, Point(box.xmin(), box.ymin(), box.zmin()) + half, half, i});
     }
-    while (!queue_.empty() && queue_.top().bound > goal(gap, limit) && result_.boxes < boxes) {
+    while (!queue_.empty() && !done(settings, radius)) {
       const Box box = queue_.top();
       queue_.pop();
       double step[3] = {0, 0, 0}, half[3] = {box.half.x(), box.half.y(), box.half.z()};
@@ -82,9 +85,11 @@ class Search {
   }
 
  private:
-  double goal(double gap, double limit) const {
-    const double near = result_.found + gap;
-    return result_.found <= limit && limit < near ? limit : near;
+  bool done(const ExposureSettings& settings, double radius) const {
+    const double bound = queue_.top().bound;
+    const double limit = settings.limit * radius;
+    if (exposed_ && result_.found <= limit && limit < bound) return result_.boxes >= settings.boxes_to_decide;
+    return bound <= result_.found + settings.gap * radius || result_.boxes >= settings.boxes;
   }
 
   void add(Box box) {
@@ -92,7 +97,7 @@ class Search {
     if (own.misses_box(box.centre, box.half)) return;
     if (exposed_)
       for (int j = 0; j < static_cast<int>(hulls_.size()); ++j)
-        if (j != box.hull && hulls_[j].contains_box(box.centre, box.half)) return;
+        if (j != box.hull && hulls_[j].strictly_contains(box.centre, box.half)) return;
     ++result_.boxes;
     const double reach = std::sqrt(box.half.squared_length());
     const double distance = solid_.distance(box.centre);
@@ -116,7 +121,10 @@ class Search {
   std::priority_queue<Box> queue_;
 };
 
-void sample(const Solid& solid, const std::vector<Hull>& hulls, const ExposureSettings& settings, Exposures& result) {
+// Returns the hulls of the farthest samples, strict and exposed.
+std::array<int, 2> sample(const Solid& solid, const std::vector<Hull>& hulls, const ExposureSettings& settings,
+                          Exposures& result) {
+  std::array<int, 2> sampled_hull{-1, -1};
   double total = 0;
   for (const Hull& hull : hulls) total += hull.volume();
   std::mt19937_64 random(settings.seed);
@@ -134,26 +142,31 @@ void sample(const Solid& solid, const std::vector<Hull>& hulls, const ExposureSe
       for (Exposure* exposure : {&result.strict, &result.exposed}) {
         if (distance <= exposure->sampled) continue;
         if (exposure == &result.exposed && in_other(hulls, i, p)) continue;
-        exposure->sampled = exposure->found = distance;
-        exposure->hull = i;
+        exposure->sampled = distance;
+        sampled_hull[exposure == &result.exposed] = i;
       }
     }
   }
+  return sampled_hull;
 }
 
 }  // namespace
 
 Exposures measure_exposure(const Solid& solid, const std::vector<Hull>& hulls, const ExposureSettings& settings) {
   Exposures result;
-  sample(solid, hulls, settings, result);
+  const std::array<int, 2> sampled_hull = sample(solid, hulls, settings, result);
   const double r = solid.radius();
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  Search(solid, hulls, false, result.strict).run(settings.gap * r, none, settings.boxes);
-  Search(solid, hulls, true, result.exposed).run(settings.gap * r, settings.limit * r, settings.boxes);
   for (Exposure* exposure : {&result.strict, &result.exposed}) {
+    const bool exposed = exposure == &result.exposed;
+    Search(solid, hulls, exposed, *exposure).run(settings, r);
+    if (exposure->sampled > exposure->bound + 1e-9 * r)
+      throw std::logic_error("the search missed what a sample found: " + std::to_string(exposure->sampled / r) + " > " +
+                             std::to_string(exposure->bound / r));
+    if (exposure->sampled > exposure->found)
+      exposure->found = exposure->sampled, exposure->hull = sampled_hull[exposed];
     exposure->sampled /= r;
     exposure->found /= r;
-    exposure->bound /= r;
+    exposure->bound = std::max(exposure->bound / r, exposure->found);
   }
   return result;
 }

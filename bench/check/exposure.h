@@ -20,25 +20,27 @@ namespace partwise::bench {
 struct ExposureSettings {
   int samples = 20000;  // at least; a quarter shared equally between the hulls, the rest by volume
   std::uint64_t seed = 1;
-  double gap = 2e-3;                                        // R: bound - found at which the search ends
-  double limit = std::numeric_limits<double>::quiet_NaN();  // R: where found < limit, also go on until bound <= limit
-  std::int64_t boxes = 400000;                              // the search ends after these in any case
+  double gap = 2e-3;                                        // R: bound - found at which the search ends,
+  int boxes = 50000;                                        // or after so many boxes
+  double limit = std::numeric_limits<double>::quiet_NaN();  // R: where found <= limit < bound, the search goes on until
+  int boxes_to_decide = 500000;                             // bound <= limit, or after so many
 };
 
 struct Exposure {
   double sampled = 0;  // shares of R: by samples alone,
-  double found = 0;    // by samples and search,
+  double found = 0;    // by samples or search,
   double bound = 0;    // and above which there is none
   int hull = -1;       // where `found` was; -1 when nothing sticks out
-  std::int64_t boxes = 0;
+  int boxes = 0;
 };
 
 struct Exposures {
   Exposure strict, exposed;
-  std::int64_t samples = 0;
+  int samples = 0;
 };
 
-// `limit` applies to `exposed`.
+// `limit` applies to `exposed`. Samples and search know nothing of each other: throws std::logic_error when a sample
+// lies above the search's bound.
 Exposures measure_exposure(const Solid& solid, const std::vector<Hull>& hulls, const ExposureSettings& settings);
 
 }  // namespace partwise::bench

@@ -28,10 +28,13 @@ class Hull {
   // Volume that the written surface misses of the hull of its vertices, as a mean depth (over the hull's area).
   double written_dent() const { return written_dent_; }
 
-  bool contains(const Point& p) const { return excess(p, Vector(0, 0, 0)) <= 0; }
-  // Boxes by centre and half extents. `misses` may be false for a box that misses the hull near an edge.
-  bool contains_box(const Point& p, const Vector& half) const { return excess(p, half) <= 0; }
-  bool misses_box(const Point& p, const Vector& half) const { return excess(p, -half) > 0; }
+  // Closed, to rounding; strictly: deeper than 1e-9 of the hull's size. Boxes by centre and half extents; `misses_box`
+  // may be false for a box that misses the hull near an edge.
+  bool contains(const Point& p) const { return excess(p, Vector(0, 0, 0)) <= 1e-12 * size_; }
+  bool strictly_contains(const Point& p, const Vector& half = Vector(0, 0, 0)) const {
+    return excess(p, half) < -1e-9 * size_;
+  }
+  bool misses_box(const Point& p, const Vector& half) const { return excess(p, -half) > 1e-12 * size_; }
   // Distance of p outside the hull, 0 inside: exact orientation predicates decide, so that 0 means inside.
   double outside(const Point& p) const;
   std::optional<Interval> clip(const Point& p, const Point& q) const;  // the whole line through p and q

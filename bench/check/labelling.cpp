@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <set>
 
 namespace partwise::bench {
@@ -13,28 +12,32 @@ int root(std::vector<int>& parent, int i) {
   return i;
 }
 
-// Vertices of each label's faces.
-std::vector<std::vector<int>> part_vertices(const Shape& shape, const std::vector<int>& labels, int parts) {
-  std::vector<std::vector<int>> result(parts);
-  for (std::size_t f = 0; f < labels.size(); ++f)
-    result[labels[f]].insert(result[labels[f]].end(), shape.faces[f].begin(), shape.faces[f].end());
-  for (std::vector<int>& vertices : result) {
-    std::ranges::sort(vertices);
-    vertices.erase(std::ranges::unique(vertices).begin(), vertices.end());
+struct Part {
+  std::vector<int> faces, vertices;
+};
+
+std::vector<Part> split(const Shape& shape, const std::vector<int>& labels, int count) {
+  std::vector<Part> parts(count);
+  for (std::size_t f = 0; f < labels.size(); ++f) {
+    Part& part = parts[labels[f]];
+    part.faces.push_back(static_cast<int>(f));
+    part.vertices.insert(part.vertices.end(), shape.faces[f].begin(), shape.faces[f].end());
   }
-  return result;
+  for (Part& part : parts) {
+    std::ranges::sort(part.vertices);
+    part.vertices.erase(std::ranges::unique(part.vertices).begin(), part.vertices.end());
+  }
+  return parts;
 }
 
-bool connected(const Shape& shape, const std::vector<int>& labels, const std::vector<std::vector<int>>& vertices) {
+bool all_connected(const Shape& shape, const std::vector<Part>& parts) {
   std::vector<int> parent(shape.vertices.size());
-  for (int part = 0; part < static_cast<int>(vertices.size()); ++part) {
-    if (vertices[part].empty()) return false;
-    for (const int v : vertices[part]) parent[v] = v;
-    for (std::size_t f = 0; f < labels.size(); ++f)
-      if (labels[f] == part)
-        for (const int corner : shape.faces[f]) parent[root(parent, corner)] = root(parent, shape.faces[f][0]);
-    const int first = root(parent, vertices[part].front());
-    if (!std::ranges::all_of(vertices[part], [&](int v) { return root(parent, v) == first; })) return false;
+  for (const Part& part : parts) {
+    for (const int v : part.vertices) parent[v] = v;
+    for (const int f : part.faces)
+      for (const int corner : shape.faces[f]) parent[root(parent, corner)] = root(parent, shape.faces[f][0]);
+    const int first = root(parent, part.vertices.front());
+    if (!std::ranges::all_of(part.vertices, [&](int v) { return root(parent, v) == first; })) return false;
   }
   return true;
 }
@@ -47,7 +50,8 @@ double outside(const Shape& shape, const std::vector<int>& vertices, const Hull&
 
 }  // namespace
 
-Labelling judge_labels(const Shape& shape, const std::vector<int>& labels, const std::vector<Hull>& hulls) {
+Labelling judge_labels(const Shape& shape, const std::vector<int>& labels, const std::vector<Hull>& hulls,
+                       double slack) {
   Labelling result;
   const std::set<int> distinct(labels.begin(), labels.end());
   result.parts = static_cast<int>(distinct.size());
@@ -58,15 +62,16 @@ Labelling judge_labels(const Shape& shape, const std::vector<int>& labels, const
     result.hull_outside = result.outside_all = std::numeric_limits<double>::infinity();
     return result;
   }
-  const std::vector<std::vector<int>> vertices = part_vertices(shape, labels, result.parts);
-  result.parts_connected = connected(shape, labels, vertices);
+  const std::vector<Part> parts = split(shape, labels, result.parts);
+  result.parts_connected = all_connected(shape, parts);
   for (int part = 0; part < result.parts; ++part) {
     const bool has_hull = part < static_cast<int>(hulls.size());
-    const double own = has_hull ? outside(shape, vertices[part], hulls[part]) : std::numeric_limits<double>::infinity();
+    const double own =
+        has_hull ? outside(shape, parts[part].vertices, hulls[part]) : std::numeric_limits<double>::infinity();
     if (own > result.hull_outside) result.hull_outside = own, result.worst_part = part;
     if (own == 0) continue;
-    for (const Hull& hull : hulls) result.hulls_match &= outside(shape, vertices[part], hull) >= own;
-    for (const int v : vertices[part]) {
+    for (const Hull& hull : hulls) result.hulls_match &= outside(shape, parts[part].vertices, hull) >= own - slack;
+    for (const int v : parts[part].vertices) {
       double nearest = std::numeric_limits<double>::infinity();
       for (const Hull& hull : hulls) nearest = std::min(nearest, hull.outside(shape.vertices[v]));
       result.outside_all = std::max(result.outside_all, nearest);

@@ -15,9 +15,10 @@ struct Labelling {
   double hull_outside = 0;      // model units: largest distance of a part's vertex outside the hull of the same number
   int worst_part = -1;
   double outside_all = 0;   // model units: the same, outside the nearest hull of all
-  bool hulls_match = true;  // no other hull holds a part better than the one of its number
+  bool hulls_match = true;  // no other hull holds a part better, by more than `slack`, than the one of its number
 };
 
-Labelling judge_labels(const Shape& shape, const std::vector<int>& labels, const std::vector<Hull>& hulls);
+Labelling judge_labels(const Shape& shape, const std::vector<int>& labels, const std::vector<Hull>& hulls,
+                       double slack);  // slack: model units, for rounding
 
 }  // namespace partwise::bench

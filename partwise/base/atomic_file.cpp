@@ -10,15 +10,30 @@
 
 namespace partwise {
 
-AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
-  std::error_code missing;
-  const std::filesystem::path target = std::filesystem::canonical(path_, missing);
-  if (!missing) path_ = target;
-  const std::filesystem::file_status status = std::filesystem::status(path_, missing);
-  if (std::filesystem::is_directory(status)) {
+std::filesystem::path follow_links(std::filesystem::path path) {
+  constexpr int most_links = 40;  // as the kernel; links in a circle stay as they are and fail when opened
+  std::error_code error;
+  for (int link = 0; link < most_links && std::filesystem::is_symlink(path, error); ++link) {
+    // Links such as /proc/self/fd/1 hold no path: what they stand for may have no name at all.
+    if (path.native().starts_with("/proc/")) break;
+    path = path.parent_path() / std::filesystem::read_symlink(path, error);
+  }
+  return path;
+}
+
+bool is_written_in_place(const std::filesystem::path& followed) {
+  std::error_code error;
+  if (std::filesystem::is_symlink(followed, error)) return true;
+  const std::filesystem::file_status status = std::filesystem::status(followed, error);
+  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+}
+
+AtomicFile::AtomicFile(std::filesystem::path path) : path_(follow_links(std::move(path))) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path_, error)) {
     throw InputError(path_.string(), "is a folder", "name a file in it");
   }
-  in_place_ = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+  in_place_ = is_written_in_place(path_);
   temporary_ = path_;
   if (!in_place_) temporary_ += fmt::format(".{}.tmp", ::getpid());
   errno = 0;

@@ -31,6 +31,12 @@ class AtomicFile {
   bool committed_ = false;
 };
 
+// The file that writing to `path` reaches: symbolic links followed, also to a file that does not exist yet.
+std::filesystem::path follow_links(std::filesystem::path path);
+
+// True for what can be written but not replaced: devices, pipes, and open files named by number (/dev/stdout).
+bool is_written_in_place(const std::filesystem::path& followed);
+
 // Writes all bytes atomically.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 

@@ -47,6 +47,17 @@ TEST(AtomicFile, FollowsLinks) {
   write_file(folder.path() / "link", "new");
   EXPECT_TRUE(fs::is_symlink(folder.path() / "link"));
   EXPECT_EQ(content(folder.path() / "real"), "new");
+  fs::remove(folder.path() / "real");
+  write_file(folder.path() / "link", "newer");
+  EXPECT_TRUE(fs::is_symlink(folder.path() / "link"));
+  EXPECT_EQ(content(folder.path() / "real"), "newer");
+}
+
+TEST(AtomicFile, LinksInACircleCannotBeWritten) {
+  const TestFolder folder;
+  fs::create_symlink("b", folder.path() / "a");
+  fs::create_symlink("a", folder.path() / "b");
+  EXPECT_THROW(write_file(folder.path() / "a", ""), InputError);
 }
 
 TEST(AtomicFile, WritesDevicesInPlace) {

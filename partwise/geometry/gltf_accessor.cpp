@@ -63,10 +63,11 @@ GltfAccessor::GltfAccessor(const std::string& file, const tinygltf::Model& model
   const bool view_fits = view.byteOffset <= bytes && view.byteLength <= bytes - view.byteOffset;
   const bool start_fits = view_fits && source.byteOffset <= view.byteLength;
   const std::size_t room = start_fits ? view.byteLength - source.byteOffset : 0;
-  const bool fits = start_fits && stride_ >= element &&
-                    (size_ == 0 || (room >= element && size_ - 1 <= (room - element) / stride_));
+  const bool fits =
+      start_fits && stride_ >= element && (size_ == 0 || (room >= element && size_ - 1 <= (room - element) / stride_));
   if (!fits) {
-    throw InputError(file, fmt::format("accessor {} of {} elements leaves its buffer of {} bytes", accessor, size_, bytes),
+    throw InputError(file,
+                     fmt::format("accessor {} of {} elements leaves its buffer of {} bytes", accessor, size_, bytes),
                      "the file was cut short or is wrong: export it again");
   }
   first_ = reinterpret_cast<const char*>(buffer.data.data()) + view.byteOffset + source.byteOffset;

@@ -74,7 +74,8 @@ std::string_view check_chunks(const std::string& file, std::string_view bytes) {
 
 void check_extensions(const std::string& file, const tinygltf::Model& model) {
   for (const std::string& name : model.extensionsRequired) {
-    if (name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression" || name == "EXT_mesh_gpu_instancing") {
+    if (name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression" ||
+        name == "EXT_mesh_gpu_instancing") {
       throw InputError(file, fmt::format("needs the extension {}, which is not supported", name),
                        "export it without compression or instancing");
     }
@@ -154,7 +155,8 @@ Mesh triangles(const std::string& file, const tinygltf::Model& model, const tiny
     const auto add = [&](std::size_t i) {
       const std::size_t vertex = indices ? indices->index(i) : i;
       if (vertex >= positions.size()) {
-        throw InputError(file, fmt::format("a face names vertex {}, its primitive has {} (from 0)", vertex, positions.size()),
+        throw InputError(file,
+                         fmt::format("a face names vertex {}, its primitive has {} (from 0)", vertex, positions.size()),
                          kExportAgain);
       }
       corners.push_back(positions.position(vertex));
@@ -173,7 +175,8 @@ Mesh triangles(const std::string& file, const tinygltf::Model& model, const tiny
   if (corners.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
     throw InputError(file, "has more corners than an int counts", "split it into several files");
   }
-  Mesh soup{Vertices(static_cast<Eigen::Index>(corners.size()), 3), Faces(static_cast<Eigen::Index>(corners.size() / 3), 3)};
+  Mesh soup{Vertices(static_cast<Eigen::Index>(corners.size()), 3),
+            Faces(static_cast<Eigen::Index>(corners.size() / 3), 3)};
   for (std::size_t i = 0; i < corners.size(); ++i) soup.vertices.row(static_cast<Eigen::Index>(i)) = corners[i];
   for (Eigen::Index i = 0; i < soup.faces.size(); ++i) soup.faces.data()[i] = static_cast<int>(i);
   return soup;
@@ -187,7 +190,8 @@ Eigen::Affine3d local_transform(const tinygltf::Node& node) {
   }
   if (node.translation.size() == 3) transform.translate(Eigen::Vector3d(node.translation.data()));
   if (node.rotation.size() == 4) {
-    transform.rotate(Eigen::Quaterniond(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]).normalized());
+    transform.rotate(
+        Eigen::Quaterniond(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]).normalized());
   }
   if (node.scale.size() == 3) transform.scale(Eigen::Vector3d(node.scale.data()));
   return transform;

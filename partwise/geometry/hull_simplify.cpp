@@ -21,7 +21,7 @@ namespace partwise {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double far_away = 50;  // New vertices lie within so many hull sizes of the hull.
+constexpr double far_away = 4;  // New vertices lie within so many hull sizes of the hull.
 
 // The surface that is simplified. `body` is the given hull, scaled to unit size about the origin; the surface is a
 // sphere whose every face plane has the body on its inner side, so that it is star-shaped about each point of the body
@@ -69,8 +69,7 @@ class Simplifier {
   Vertices position_;
   HalfEdgeSphere surface_;
   std::vector<Tangent> tangent_;  // of each half-edge
-  LinearProgramme programme_;
-  std::vector<int> link_;  // half-edges around the star at hand
+  std::vector<int> link_;         // half-edges around the star at hand
   std::vector<HalfSpace> constraints_;
   std::priority_queue<Candidate> candidates_;
   int step_ = 0;
@@ -101,10 +100,12 @@ Simplifier::Simplifier(const Mesh& body)
 // outside the plane is the last one, since the body is convex.
 Simplifier::Tangent Simplifier::tangent(int h, int contact) const {
   const Eigen::Vector3d a = position_.row(surface_.origin[h]), b = position_.row(surface_.target(h));
+  constexpr double on_line = 1e-9;
+  // An apex often falls on a neighbour; the edge between them is a point and bounds nothing.
+  if ((b - a).norm() < on_line) return {{Eigen::Vector3d::Zero(), 0}, contact};
   const Eigen::Vector3d along = (b - a).normalized();
   const Eigen::Vector3d inwards = (along.dot(a) * along - a).normalized();  // to the origin, which is inside
   const Eigen::Vector3d left = along.cross(inwards);
-  constexpr double on_line = 1e-9;
   const auto polar = [&](int v) -> Eigen::Vector2d {
     const Eigen::Vector3d p = body_.row(v).transpose() - a;
     return {inwards.dot(p), left.dot(p)};
@@ -113,15 +114,16 @@ Simplifier::Tangent Simplifier::tangent(int h, int contact) const {
     for (int v = 0; v < body_.rows(); ++v)
       if (polar(v).squaredNorm() > polar(contact).squaredNorm()) contact = v;
   Eigen::Vector2d direction = polar(contact);
-  for (bool moved = true; moved;) {
-    moved = false;
+  bool turned = true;
+  for (Eigen::Index turns = 0; turned && turns < body_.rows(); ++turns) {
+    turned = false;
     direction.normalize();
     for (int i = neighbour_start_[contact]; i < neighbour_start_[contact + 1]; ++i) {
       const Eigen::Vector2d q = polar(neighbours_[i]);
       if (direction.x() * q.y() - direction.y() * q.x() <= 1e-14 || q.norm() < on_line) continue;
       contact = neighbours_[i];
       direction = q;
-      moved = true;
+      turned = true;
       break;
     }
   }
@@ -157,22 +159,14 @@ double Simplifier::best_apex(const Eigen::Vector3d& origin, Eigen::Vector3d& ape
     cost += (a - origin).cross(b - origin);
     constraints_.push_back(shifted(tangent_[h].outside));
   }
-  auto status = programme_.solve(cost, constraints_, far_away, apex);
-  if (status == LinearProgramme::Status::infeasible) return infinity;
-  // An apex beyond the tangent on the far side of a link edge would turn that face's back to the body. This is rare,
-  // so that these constraints are added on demand; they also bound what was unbounded.
-  const auto far_side = [&](int h) -> HalfSpace {
+  // An apex beyond the tangent on the far side of a link edge would turn that face's back to the body.
+  for (int h : link_) {
     const HalfSpace plane = shifted(tangent_[surface_.twin[h]].outside);
-    return {-plane.normal, -plane.offset};
-  };
-  if (status == LinearProgramme::Status::unbounded || std::ranges::any_of(link_, [&](int h) {
-        const HalfSpace side = far_side(h);
-        return side.normal.dot(apex) < side.offset - 1e-12;
-      })) {
-    for (int h : link_) constraints_.push_back(far_side(h));
-    status = programme_.solve(cost, constraints_, far_away, apex);
-    if (status != LinearProgramme::Status::optimal) return infinity;
+    constraints_.push_back({-plane.normal, -plane.offset});
   }
+  const Optimum optimum = minimise(cost, constraints_, far_away);
+  if (optimum.status != Optimum::Status::optimal) return infinity;
+  apex = optimum.x;
   return cost.dot(apex);
 }
 

@@ -1,6 +1,9 @@
 #include "partwise/geometry/linear_programme.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace partwise {
@@ -10,88 +13,58 @@ constexpr double tolerance = 1e-12;
 
 }  // namespace
 
-// The optimum over the cube and the first `count` rows; false when there is no such point.
-template <int D>
-bool LinearProgramme::minimise(const std::array<double, D>& cost, const Row<D>* rows, std::size_t count,
-                               std::array<double, D>& x) {
-  const auto start = [&](double c) { return std::abs(c) <= negligible_ ? 0.0 : c > 0 ? -bound_ : bound_; };
-  if constexpr (D == 1) {
-    double low = -bound_, high = bound_;
-    for (std::size_t i = 0; i < count; ++i) {
-      const double n = rows[i].normal[0], d = rows[i].offset;
-      if (n > 0) low = std::max(low, d / n);
-      if (n < 0) high = std::min(high, d / n);
-    }
-    if (low > high + tolerance) return false;
-    x[0] = std::clamp(start(cost[0]), std::min(low, high), std::max(low, high));
-    return true;
-  } else {
-    for (int k = 0; k < D; ++k) x[k] = start(cost[k]);
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto& [normal, offset] = rows[i];
-      double value = -offset;
-      for (int k = 0; k < D; ++k) value += normal[k] * x[k];
-      if (value >= -tolerance) continue;
+Optimum minimise(const Eigen::Vector3d& cost, std::span<const HalfSpace> half_spaces, double bound) {
+  Eigen::Vector3d tilted = cost;
+  const double tilt = 1e-9 * cost.norm();
+  for (const HalfSpace& h : half_spaces) tilted += tilt * h.normal;
 
-      // On the plane of row i: x_p is expressed by the others, p the coordinate with the largest coefficient.
-      int p = 0;
-      for (int k = 1; k < D; ++k)
-        if (std::abs(normal[k]) > std::abs(normal[p])) p = k;
-      auto& reduced = [this]() -> auto& {
-        if constexpr (D == 3)
-          return rows2_;
-        else
-          return rows1_;
-      }
-      ();
-      reduced.clear();
-      std::array<double, D - 1> share{}, reduced_cost{}, y{};
-      for (int k = 0, j = 0; k < D; ++k) {
-        if (k == p) continue;
-        share[j] = normal[k] / normal[p];
-        reduced_cost[j++] = cost[k] - cost[p] * normal[k] / normal[p];
-      }
-      const double level = offset / normal[p];
-      for (std::size_t other = 0; other < i; ++other) {
-        Row<D - 1> row{};
-        double largest = 0;
-        for (int k = 0, j = 0; k < D; ++k) {
-          if (k == p) continue;
-          row.normal[j] = rows[other].normal[k] - rows[other].normal[p] * share[j];
-          largest = std::max(largest, std::abs(row.normal[j++]));
-        }
-        row.offset = rows[other].offset - rows[other].normal[p] * level;
-        if (largest <= tolerance) {  // Parallel planes: all of this one is inside the other, or nothing.
-          if (row.offset > tolerance) return false;
-          continue;
-        }
-        for (double& n : row.normal) n /= largest;
-        row.offset /= largest;
-        reduced.push_back(row);
-      }
-      if (!minimise<D - 1>(reduced_cost, reduced.data(), reduced.size(), y)) return false;
-      x[p] = level;
-      for (int k = 0, j = 0; k < D; ++k) {
-        if (k == p) continue;
-        x[k] = y[j];
-        x[p] -= share[j] * y[j];
-        ++j;
-      }
-    }
-    return true;
+  // The basis: three planes of whose normals the cost is a combination with weights that are not negative. Three sides
+  // of the cube are one.
+  std::array<HalfSpace, 3> basis;
+  std::array<bool, 3> from_cube{true, true, true};
+  for (int k = 0; k < 3; ++k) {
+    const double sign = tilted[k] >= 0 ? 1 : -1;
+    basis[k] = {sign * Eigen::Vector3d::Unit(k), -bound};
   }
-}
+  const int limit = 50 + 10 * static_cast<int>(half_spaces.size());  // Only rounding can make it run in circles.
+  for (int step = 0; step < limit; ++step) {
+    // Rows of the inverse transposed: the reciprocal basis.
+    std::array<Eigen::Vector3d, 3> reciprocal{basis[1].normal.cross(basis[2].normal),
+                                              basis[2].normal.cross(basis[0].normal),
+                                              basis[0].normal.cross(basis[1].normal)};
+    const double scale = 1 / basis[0].normal.dot(reciprocal[0]);
+    for (auto& r : reciprocal) r *= scale;
+    const Eigen::Vector3d x =
+        basis[0].offset * reciprocal[0] + basis[1].offset * reciprocal[1] + basis[2].offset * reciprocal[2];
 
-LinearProgramme::Status LinearProgramme::solve(const Eigen::Vector3d& cost, std::span<const HalfSpace> half_spaces,
-                                               double bound, Eigen::Vector3d& x) {
-  bound_ = bound;
-  negligible_ = 1e-12 * cost.lpNorm<Eigen::Infinity>();
-  rows3_.clear();
-  for (const HalfSpace& h : half_spaces) rows3_.push_back({{h.normal[0], h.normal[1], h.normal[2]}, h.offset});
-  std::array<double, 3> y{};
-  if (!minimise<3>({cost[0], cost[1], cost[2]}, rows3_.data(), rows3_.size(), y)) return Status::infeasible;
-  x << y[0], y[1], y[2];
-  return x.lpNorm<Eigen::Infinity>() >= bound * (1 - 1e-9) ? Status::unbounded : Status::optimal;
+    // The most violated of the first eight half-spaces, or else of the next eight, and so on.
+    std::size_t entering = half_spaces.size();
+    double worst = tolerance;
+    for (std::size_t i = 0; i < half_spaces.size(); ++i) {
+      if (i % 8 == 0 && entering < i) break;
+      const double violation = half_spaces[i].offset - half_spaces[i].normal.dot(x);
+      if (violation > worst) worst = violation, entering = i;
+    }
+    if (entering == half_spaces.size()) {
+      const bool on_cube = from_cube[0] || from_cube[1] || from_cube[2] || !(x.lpNorm<Eigen::Infinity>() < bound);
+      return {on_cube ? Optimum::Status::unbounded : Optimum::Status::optimal, x};
+    }
+
+    // Which plane leaves: the one whose weight first falls to zero as the weight of the entering one grows.
+    int leaving = -1;
+    double least = 0, share_of_leaving = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double share = reciprocal[k].dot(half_spaces[entering].normal);
+      if (share <= tolerance) continue;
+      const double ratio = std::max(reciprocal[k].dot(tilted), 0.0) / share;
+      if (leaving < 0 || ratio < least || (ratio == least && share > share_of_leaving))
+        leaving = k, least = ratio, share_of_leaving = share;
+    }
+    if (leaving < 0) return {};
+    basis[leaving] = half_spaces[entering];
+    from_cube[leaving] = false;
+  }
+  return {};
 }
 
 }  // namespace partwise

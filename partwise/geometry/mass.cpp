@@ -34,8 +34,7 @@ Moments moments(const Mesh& mesh) {
     const Point sum = a + b + c;
     six_volumes += six;
     first += six / 24 * sum;
-    second += six / 120 *
-              (a.transpose() * a + b.transpose() * b + c.transpose() * c + sum.transpose() * sum);
+    second += six / 120 * (a.transpose() * a + b.transpose() * b + c.transpose() * c + sum.transpose() * sum);
   }
   const double volume = six_volumes / 6;
   if (!(std::abs(volume) > 1e-12 * std::pow((high - low).norm(), 3))) return result;

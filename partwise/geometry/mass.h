@@ -3,10 +3,10 @@
 // The volume integrals of 1, x, x^2 and x y (Mirtich 1996, *Fast and accurate computation of polyhedral mass
 // properties*) as sums over signed tetrahedra from a point near the mesh to each face (Blow, Binstock 2004). Time O(m).
 //
-// Units: lengths are those of the model, the density is 1: mass is volume. For another density multiply the mass and the
-// inertia by it. Faces count as they are turned; a mesh that is inside out as a whole gives the same as its reverse.
-// Errors: InputError when the volume is zero, or so small that rounding drowns it (below 1e-12 of the bounding box's
-// diagonal cubed).
+// Units: lengths are those of the model, the density is 1: mass is volume. For another density multiply the mass and
+// the inertia by it. Faces count as they are turned; a mesh that is inside out as a whole gives the same as its
+// reverse. Errors: InputError when the volume is zero, or so small that rounding drowns it (below 1e-12 of the bounding
+// box's diagonal cubed).
 #pragma once
 
 #include <Eigen/Core>
@@ -18,8 +18,8 @@
 namespace partwise {
 
 struct MassProperties {
-  double volume = 0;                                   // positive; the mass at density 1
-  Point centre = Point::Zero();                        // of mass
+  double volume = 0;                                  // positive; the mass at density 1
+  Point centre = Point::Zero();                       // of mass
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // about the centre, in the axes of the model; symmetric
 };
 

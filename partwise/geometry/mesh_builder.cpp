@@ -44,15 +44,15 @@ Mesh MeshBuilder::build() {
   for (std::size_t face = 0; face < ends_.size(); ++face) {
     const std::span<const int> polygon(corners_.data() + first, ends_[face] - first);
     if (polygon.size() > kMostCorners) {
-      throw InputError(file_, fmt::format("face {} has {} corners, at most {} can be triangulated", face,
-                                          polygon.size(), kMostCorners),
-                       "export the mesh as triangles");
+      throw InputError(
+          file_,
+          fmt::format("face {} has {} corners, at most {} can be triangulated", face, polygon.size(), kMostCorners),
+          "export the mesh as triangles");
     }
     triangulate_polygon(mesh.vertices, polygon, triangles);
     first = ends_[face];
   }
-  mesh.faces =
-      Eigen::Map<const Faces>(triangles.data()->data(), static_cast<Eigen::Index>(triangles.size()), 3);
+  mesh.faces = Eigen::Map<const Faces>(triangles.data()->data(), static_cast<Eigen::Index>(triangles.size()), 3);
   return mesh;
 }
 

@@ -70,7 +70,7 @@ Mesh read_obj(const std::string& file, std::string_view bytes) {
         value = scanner.coordinate("a coordinate of a vertex");
       }
       builder.add_vertex(point[0], point[1], point[2]);
-      scanner.skip_line();  // a weight or a colour
+      scanner.skip_line();                           // a weight or a colour
     } else if (keyword == "f" || keyword == "fo") {  // fo: the same in files of version 2.11
       read_face(scanner, builder, farthest);
     } else {
@@ -78,10 +78,10 @@ Mesh read_obj(const std::string& file, std::string_view bytes) {
     }
   }
   if (farthest && farthest->vertex >= builder.vertex_count()) {
-    throw InputError(scanner.place(farthest->position),
-                     fmt::format("a face names vertex {}, the file has {} (from 1)", farthest->vertex + 1,
-                                 builder.vertex_count()),
-                     "fix or drop the face");
+    throw InputError(
+        scanner.place(farthest->position),
+        fmt::format("a face names vertex {}, the file has {} (from 1)", farthest->vertex + 1, builder.vertex_count()),
+        "fix or drop the face");
   }
   return builder.build();
 }

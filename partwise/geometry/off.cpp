@@ -53,9 +53,9 @@ void read_face(TextScanner& scanner, std::size_t face, MeshBuilder& builder) {
   for (std::int64_t k = 0; k < corners; ++k) {
     const std::int64_t vertex = scanner.integer("a vertex of a face");
     if (vertex < 0 || vertex >= builder.vertex_count()) {
-      scanner.fail(fmt::format("face {} names vertex {}, the file has {} (from 0)", face, vertex,
-                               builder.vertex_count()),
-                   "fix or drop the face");
+      scanner.fail(
+          fmt::format("face {} names vertex {}, the file has {} (from 0)", face, vertex, builder.vertex_count()),
+          "fix or drop the face");
     }
     builder.add_corner(vertex);
   }
@@ -73,11 +73,12 @@ Mesh read_off(const std::string& file, std::string_view bytes) {
   const std::size_t faces = to_count(scanner, scanner.token(), "the number of faces");
   scanner.skip_line();  // The number of edges is wrong or missing in many files, and of no use.
 
-  // The shortest vertex is "0 0 0" and a line end, the shortest face "3 0 1 2"; the last line end may be missing.
-  if (vertices > (scanner.remaining() + 1) / 6) {
+  // The shortest vertex is "0 0 0" and a line end; a face, if wrong, may be as short as "2 0 1".
+  const std::size_t room = (scanner.remaining() + 1) / 6;  // The last line end may be missing.
+  if (vertices > room) {
     scanner.fail(fmt::format("{} vertices are announced, but the file is too short for them", vertices), kCutShort);
   }
-  if (faces > (scanner.remaining() + 1 - std::min(scanner.remaining() + 1, 6 * vertices)) / 8) {
+  if (faces > room - vertices) {
     scanner.fail(fmt::format("{} faces are announced, but the file is too short for them", faces), kCutShort);
   }
   MeshBuilder builder(file);

@@ -1,5 +1,5 @@
-// PLY (Turk 1994), ascii and binary of both byte orders. Of the element "vertex" x, y and z are read, of "face" the list
-// "vertex_indices" or "vertex_index"; all else is passed over.
+// PLY (Turk 1994), ascii and binary of both byte orders. Of the element "vertex" x, y and z are read, of "face" the
+// list "vertex_indices" or "vertex_index"; all else is passed over.
 #include <fmt/format.h>
 
 #include <array>
@@ -31,7 +31,9 @@ class TextSource {
   void pass(PlyType) {
     if (scanner_.token().empty()) fail("the file ends inside an element", kCutShort);
   }
-  [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const { scanner_.fail(problem, remedy); }
+  [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const {
+    scanner_.fail(problem, remedy);
+  }
 
  private:
   TextScanner scanner_;

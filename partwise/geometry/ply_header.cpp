@@ -13,10 +13,22 @@ namespace {
 PlyType to_type(const TextScanner& scanner, std::string_view name) {
   using enum PlyType;
   // Both the names of 1994 and those with the number of bits are in use.
-  static constexpr std::array<std::pair<std::string_view, PlyType>, 16> kTypes{
-      {{"char", int8}, {"uchar", uint8}, {"short", int16}, {"ushort", uint16}, {"int", int32}, {"uint", uint32},
-       {"float", float32}, {"double", float64}, {"int8", int8}, {"uint8", uint8}, {"int16", int16},
-       {"uint16", uint16}, {"int32", int32}, {"uint32", uint32}, {"float32", float32}, {"float64", float64}}};
+  static constexpr std::array<std::pair<std::string_view, PlyType>, 16> kTypes{{{"char", int8},
+                                                                                {"uchar", uint8},
+                                                                                {"short", int16},
+                                                                                {"ushort", uint16},
+                                                                                {"int", int32},
+                                                                                {"uint", uint32},
+                                                                                {"float", float32},
+                                                                                {"double", float64},
+                                                                                {"int8", int8},
+                                                                                {"uint8", uint8},
+                                                                                {"int16", int16},
+                                                                                {"uint16", uint16},
+                                                                                {"int32", int32},
+                                                                                {"uint32", uint32},
+                                                                                {"float32", float32},
+                                                                                {"float64", float64}}};
   for (const auto& [known, type] : kTypes)
     if (name == known) return type;
   scanner.fail(fmt::format("{} is not a type of PLY", shown(name)), "correct the header");
@@ -84,7 +96,8 @@ int PlyElement::find(std::string_view property) const {
 std::size_t PlyElement::smallest_size(PlyFormat format) const {
   if (format == PlyFormat::ascii) return 2 * properties.size();  // a digit and a blank each
   std::size_t size = 0;
-  for (const PlyProperty& property : properties) size += size_of(property.is_list ? property.count_type : property.type);
+  for (const PlyProperty& property : properties)
+    size += size_of(property.is_list ? property.count_type : property.type);
   return size;
 }
 

@@ -87,9 +87,10 @@ Mesh read_ascii(const std::string& file, std::string_view bytes) {
 
 Mesh read_binary(const std::string& file, std::string_view bytes) {
   if (bytes.size() < kHeader) {
-    throw InputError(file, fmt::format("is neither text that begins with solid nor as long as a binary STL's header "
-                                       "({} of {} bytes)",
-                                       bytes.size(), kHeader),
+    throw InputError(file,
+                     fmt::format("is neither text that begins with solid nor as long as a binary STL's header "
+                                 "({} of {} bytes)",
+                                 bytes.size(), kHeader),
                      "give an STL file, or use the ending of its true format");
   }
   const std::size_t announced = load<std::uint32_t>(&bytes[80]);
@@ -106,8 +107,8 @@ Mesh read_binary(const std::string& file, std::string_view bytes) {
       const std::size_t at = kHeader + kRecord * face + 12 * (corner + 1);
       const float x = load<float>(&bytes[at]), y = load<float>(&bytes[at + 4]), z = load<float>(&bytes[at + 8]);
       if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) {
-        throw InputError(fmt::format("{}: byte {}", file, at), fmt::format("face {} has a corner that is not finite", face),
-                         "correct or remove the face");
+        throw InputError(fmt::format("{}: byte {}", file, at),
+                         fmt::format("face {} has a corner that is not finite", face), "correct or remove the face");
       }
       builder.add_corner(builder.vertex_count());
       builder.add_vertex(x, y, z);

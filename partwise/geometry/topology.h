@@ -1,7 +1,7 @@
 // Connectivity of triangle meshes of any kind: open, non-manifold, with repeated or degenerate faces.
 //
-// A half-edge is the passage of a face along one of its sides, from one vertex to the next; an edge is an unordered pair
-// of vertices. A face that names a vertex twice is degenerate: it bounds nothing, has no half-edges here and no
+// A half-edge is the passage of a face along one of its sides, from one vertex to the next; an edge is an unordered
+// pair of vertices. A face that names a vertex twice is degenerate: it bounds nothing, has no half-edges here and no
 // neighbours across edges, but it still joins its vertices. Indices are not checked against the number of vertices:
 // read_mesh has done that. Time O(n + m), but for the sorting of the edges about one vertex. Flat arrays throughout.
 #pragma once
@@ -71,10 +71,10 @@ Components vertex_components(const Mesh& mesh);
 // across edges of any kind, that are watertight) has negative volume in all, it is turned inside out.
 Mesh orient_consistently(const Mesh& mesh);
 
-// Vertices within `tolerance` (model units) of an earlier kept one become that one, so none moves farther. Kept vertices
-// are in order of their first appearance, faces keep their order, and those that collapse stay. Tolerance 0 joins equal
-// positions only (0 and -0 are equal); one below 1e-15 of the largest coordinate is below its rounding and counts as 0.
-// Errors: InputError for a negative or non-finite tolerance.
+// Vertices within `tolerance` (model units) of an earlier kept one become that one, so none moves farther. Kept
+// vertices are in order of their first appearance, faces keep their order, and those that collapse stay. Tolerance 0
+// joins equal positions only (0 and -0 are equal); one below 1e-15 of the largest coordinate is below its rounding and
+// counts as 0. Errors: InputError for a negative or non-finite tolerance.
 Mesh weld(const Mesh& mesh, double tolerance = 0);
 
 }  // namespace partwise

@@ -124,8 +124,7 @@ void triangulate_polygon(const Vertices& vertices, std::span<const int> polygon,
   }
   const std::vector<Plane> corners = project(vertices, polygon);
   if (is_convex(corners)) {
-    for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
-      triangles.push_back({polygon[0], polygon[i], polygon[i + 1]});
+    for (std::size_t i = 1; i + 1 < polygon.size(); ++i) triangles.push_back({polygon[0], polygon[i], polygon[i + 1]});
   } else {
     EarClipping(corners).run([&](int a, int b, int c) { triangles.push_back({polygon[a], polygon[b], polygon[c]}); });
   }

@@ -20,8 +20,8 @@ std::uint64_t hash(const Point& p) {
   return h;
 }
 
-// The kept vertices by a key (their position, or the cell of a grid that they lie in): a hash table with open addressing
-// over chains through the vertices of equal key.
+// The kept vertices by a key (their position, or the cell of a grid that they lie in): a hash table with open
+// addressing over chains through the vertices of equal key.
 class Kept {
  public:
   explicit Kept(Eigen::Index most)

@@ -1,0 +1,189 @@
+"""The harness on small answers known beforehand; and from end to end with a program of a few lines in place of partwise,
+which puts a box around every mesh: decompose_bench_test.py CHECKER [HACD]"""
+
+import io
+import math
+import stat
+import sys
+import tempfile
+import textwrap
+import unittest
+from contextlib import redirect_stdout
+from pathlib import Path
+
+import decompose_bench
+from harness import meshes, process, summary
+from harness.decompose import Settings, decompose
+from harness.dissertation import AVERAGE, TABLE_2_3
+from harness.rand_error import People, rand_error
+
+CHECKER = HACD = ""
+CORNERS = [(x, y, z) for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)]
+SIDES = [(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4),
+         (1, 5, 7), (1, 7, 3)]
+
+BOXER = textwrap.dedent("""\
+    #!/usr/bin/python3
+    import json, math, sys
+    sys.path.insert(0, {bench!r})
+    from harness import meshes
+    words = sys.argv[1:]
+    option = {{words[k]: words[k + 1] for k in range(2, len(words) - 1)}}
+    vertices, faces = meshes.read_off(words[1])
+    if len(faces) == 1:
+        sys.exit("words of complaint")
+    ends = [(min(p[k] for p in vertices), max(p[k] for p in vertices)) for k in range(3)]
+    corners = [(x, y, z) for x in ends[0] for y in ends[1] for z in ends[2]]
+    with open(option["--labels"], "w") as out:
+        out.write("0\\n" * len(faces))
+    with open(option["--hulls"], "w") as out:
+        out.write("o box\\n" + "".join("v %r %r %r\\n" % p for p in corners))
+        out.write("".join("f %d %d %d\\n" % tuple(c + 1 for c in f) for f in {sides!r}))
+    with open(option["--json"], "w") as out:
+        json.dump({{"parts": 1, "tolerance": 0.1, "concavity": 0, "volume_ratio": {ratio}, "watertight": True,
+                   "radius": math.sqrt(3) / 2, "seconds": {{}}}}, out)
+    """)
+
+
+class RandError(unittest.TestCase):
+    def test_by_hand(self):
+        self.assertEqual(rand_error([0, 0, 1, 1], [5, 5, 2, 2]), 0)
+        self.assertEqual(rand_error([0, 0, 0], [0, 1, 2]), 1)
+        # Six pairs; (0, 1) and (2, 3) are together in the first only, (1, 2) in the second only.
+        self.assertEqual(rand_error([0, 0, 1, 1], [0, 1, 1, 2]), 3 / 6)
+
+    def test_against_all_pairs(self):
+        a = [(7 * k * k + 3) % 5 for k in range(60)]
+        b = [(k * k + k) % 4 for k in range(60)]
+        pairs = [(i, j) for i in range(60) for j in range(i)]
+        apart = sum((a[i] == a[j]) != (b[i] == b[j]) for i, j in pairs)
+        self.assertAlmostEqual(rand_error(a, b), apart / len(pairs), 14)
+
+    def test_lengths_differ(self):
+        with self.assertRaises(ValueError):
+            rand_error([0, 1], [0, 1, 1])
+
+    def test_people(self):
+        with tempfile.TemporaryDirectory() as folder:
+            (Path(folder) / "7").mkdir()
+            (Path(folder) / "7" / "7_0.seg").write_text("0\n0\n1\n1\n")
+            (Path(folder) / "7" / "7_1.seg").write_text("0\n1\n1\n2\n")
+            people = People(folder)
+            self.assertEqual(people.error(Path("7.off"), [3, 3, 4, 4]), 0.25)
+            self.assertEqual(people.among_themselves(Path("7.off")), 0.5)
+            self.assertIsNone(people.error(Path("8.off"), [3, 3]))
+
+
+class Meshes(unittest.TestCase):
+    def test_rotation_keeps_distances_and_handedness(self):
+        for seed in range(5):
+            turned = meshes.rotated(CORNERS, seed)
+            self.assertAlmostEqual(meshes.volume(turned, SIDES), 1, 12)
+            self.assertAlmostEqual(math.dist(turned[0], turned[7]), math.sqrt(3), 12)
+            self.assertNotAlmostEqual(turned[7][0], 1, 3)
+        self.assertEqual(meshes.rotated(CORNERS, 3), meshes.rotated(CORNERS, 3))
+
+    def test_thinned_out(self):
+        kept = meshes.thinned_out(list(range(1000)), 0.45, seed=1)
+        self.assertEqual(len(kept), 550)
+        self.assertEqual(kept, sorted(set(kept)))
+
+    def test_files_and_categories(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("2", "10", "281"):
+                meshes.write_off(Path(folder) / f"{name}.off", CORNERS, SIDES)
+            paths = meshes.find(folder)
+            self.assertEqual([path.stem for path in paths], ["2", "10", "281"])
+            self.assertEqual(meshes.read_off(paths[0]), (CORNERS, SIDES))
+            self.assertEqual([meshes.princeton_category(path) for path in paths], ["human", "human", "armadillo"])
+            self.assertEqual(len(meshes.first_of_each(paths, meshes.princeton_category)), 2)
+
+
+class Facts(unittest.TestCase):
+    def test_averages_follow_from_the_rows(self):
+        """The table as printed is consistent to its rounding."""
+        for block, digits in ((0, 0.1), (1, 1.0), (2, 0.01)):
+            for column in range(3):
+                mean = sum(row[block][column] for row in TABLE_2_3.values()) / len(TABLE_2_3)
+                self.assertLess(abs(mean - AVERAGE[block][column]), digits, (block, column, mean))
+
+    def test_categories_have_the_benchmarks_names(self):
+        self.assertEqual(set(TABLE_2_3), set(meshes.PRINCETON) - {"(none)"})
+
+
+class Process(unittest.TestCase):
+    def test_cpu_time_is_counted_and_sleep_is_not(self):
+        busy = process.run([sys.executable, "-c", "import time\nwhile time.process_time() < 0.3: pass"], 30)
+        self.assertGreaterEqual(busy.cpu_seconds, 0.29)
+        idle = process.run([sys.executable, "-S", "-c", "import time; time.sleep(0.5)"], 30)
+        self.assertLess(idle.cpu_seconds, 0.4)
+
+    def test_trouble(self):
+        self.assertEqual(process.run([sys.executable, "-c", "while True: pass"], 0.3).trouble, "time limit")
+        self.assertEqual(process.run([sys.executable, "-c", "exit('a line')"], 30).trouble, "a line")
+        self.assertEqual(process.run([sys.executable, "-c", ""], 30).trouble, "")
+
+
+class EndToEnd(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = Path(holder.name)
+        (self.folder / "boxes").mkdir()
+        meshes.write_off(self.folder / "boxes" / "cube.off", CORNERS, SIDES)
+
+    def boxer(self, ratio):
+        program = self.folder / "boxer"
+        program.write_text(BOXER.format(bench=str(Path(__file__).resolve().parent), sides=SIDES, ratio=ratio))
+        program.chmod(program.stat().st_mode | stat.S_IXUSR)
+        return program
+
+    def bench(self, *options, ratio=1.0):
+        printed = io.StringIO()
+        with redirect_stdout(printed):
+            decompose_bench.main([str(self.folder / "boxes"), "--program", str(self.boxer(ratio)), "--checker", CHECKER,
+                                  *options])
+        return printed.getvalue()
+
+    def test_table(self):
+        printed = self.bench("--check")
+        self.assertIn("finished 1 of 1 (holds)", printed)
+        self.assertIn("meshes with a broken promise 0 = 0 (holds)", printed)
+        self.assertNotIn("MISSED", printed)
+
+    def test_untrue_ratio(self):
+        printed = self.bench("--check", ratio=1.1)
+        self.assertIn("cube: says volume ratio 1.1000, it is 1.0000", printed)
+        self.assertIn("meshes with a broken promise 1 = 0 (MISSED)", printed)
+
+    def test_trouble_is_named_and_counted(self):
+        meshes.write_off(self.folder / "boxes" / "face.off", CORNERS, SIDES[:1])
+        printed = self.bench()
+        self.assertIn("face: words of complaint", printed)
+        self.assertIn("finished 1 of 2 (MISSED)", printed)
+
+    def test_experiments(self):
+        self.assertIn("within 0 of the mesh as given", self.bench("--rotations", "3"))
+        self.assertIn("the same bytes on 1 of 1", self.bench("--determinism"))
+        self.assertIn("1.000", self.bench("--remove", "0.1"))
+
+    def test_peer(self):
+        if not HACD:
+            self.skipTest("built without Bullet's HACD")
+        printed = self.bench("--hacd", "1", "--hacd-program", HACD)
+        cube = next(line.split() for line in printed.splitlines() if line.startswith("cube") and "1.000" in line)
+        self.assertEqual(cube[6:8], ["1", "1.000"])
+
+    def test_exit_without_files(self):
+        program = self.folder / "idle"
+        program.write_text("#!/bin/sh\n")
+        program.chmod(0o755)
+        result = decompose(Settings(program), self.folder / "boxes" / "cube.off")
+        self.assertEqual(result.trouble, "exit status 0 without labels.seg, hulls.obj, report.json")
+        self.assertEqual(summary.totals([result])["finished"], 0)
+
+
+if __name__ == "__main__":
+    CHECKER = sys.argv.pop(1)
+    HACD = sys.argv.pop(1) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else ""
+    unittest.main()

@@ -1,0 +1,114 @@
+// Every file of data/corpus gives what expected.json says: a mesh of that size, or one line of message.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "partwise/base/error.h"
+#include "partwise/geometry/mesh_formats.h"
+#include "partwise/geometry/mesh_io.h"
+
+namespace partwise {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+const std::filesystem::path kCorpus = std::filesystem::path(PARTWISE_TEST_DATA) / "data" / "corpus";
+
+nlohmann::json expected() {
+  std::ifstream file(kCorpus / "expected.json");
+  return nlohmann::json::parse(file);
+}
+
+TEST(Corpus, GivesTheMeshOrTheMessageThatIsExpected) {
+  for (const auto& each : expected()) {
+    const std::string name = each.at("file");
+    SCOPED_TRACE(name);
+    const std::filesystem::path path = kCorpus / name;
+    try {
+      const Mesh mesh = read_mesh(path);
+      if (each.contains("error")) {
+        ADD_FAILURE() << "was read, but should say: " << each.at("error");
+        continue;
+      }
+      EXPECT_EQ(mesh.vertices.rows(), each.at("vertices").get<int>());
+      EXPECT_EQ(mesh.faces.rows(), each.at("faces").get<int>());
+      EXPECT_TRUE(mesh.vertices.allFinite());
+      ASSERT_GT(mesh.faces.size(), 0);
+      EXPECT_GE(mesh.faces.minCoeff(), 0);
+      EXPECT_LT(mesh.faces.maxCoeff(), mesh.vertices.rows());
+    } catch (const InputError& error) {
+      const std::string message = error.what();
+      if (!each.contains("error")) {
+        ADD_FAILURE() << message;
+        continue;
+      }
+      EXPECT_THAT(message, StartsWith(path.string()));
+      EXPECT_THAT(message, HasSubstr(each.at("error").get<std::string>()));
+      EXPECT_THAT(message, HasSubstr("; ")) << "no remedy";
+      EXPECT_THAT(message, Not(HasSubstr("\n")));
+      EXPECT_LT(message.size(), path.string().size() + 300);
+    }
+  }
+}
+
+TEST(Corpus, ListsEveryFile) {
+  std::set<std::string> listed{"expected.json", "README.md", ".gitattributes", "external_buffer.bin"};
+  for (const auto& each : expected()) {
+    EXPECT_TRUE(listed.insert(each.at("file").get<std::string>()).second) << each << " is listed twice";
+    EXPECT_TRUE(each.at("decompose").is_string());
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(kCorpus)) {
+    EXPECT_TRUE(listed.contains(entry.path().filename().string())) << entry.path();
+  }
+  EXPECT_GE(listed.size(), 49u);
+}
+
+Mesh read_as(const std::string& name, std::string_view bytes) {
+  if (name.ends_with(".off")) return read_off(name, bytes);
+  if (name.ends_with(".obj")) return read_obj(name, bytes);
+  if (name.ends_with(".ply")) return read_ply(name, bytes);
+  if (name.ends_with(".stl")) return read_stl(name, bytes);
+  if (name.ends_with(".glb")) return read_glb(name, bytes, kCorpus);
+  return read_gltf(name, bytes, kCorpus);
+}
+
+void expect_mesh_or_message(const std::string& name, std::string_view bytes) {
+  try {
+    const Mesh mesh = read_as(name, bytes);
+    EXPECT_GT(mesh.faces.rows(), 0);
+    EXPECT_GE(mesh.faces.minCoeff(), 0);
+    EXPECT_LT(mesh.faces.maxCoeff(), mesh.vertices.rows());
+    EXPECT_TRUE(mesh.vertices.allFinite());
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
+  }
+}
+
+// Whatever is left of a file, or becomes of it, it is a mesh or a message; the sanitizers watch over the rest.
+TEST(Corpus, SurvivesCuttingAndChangingEveryByte) {
+  for (const char* name : {"comments.off", "colours.off", "l_prism_of_polygons.off", "all_corner_forms.obj",
+                           "continued_lines.obj", "extra_elements.ply", "big_endian.ply", "little_endian.ply",
+                           "ascii.stl", "binary.stl", "tetrahedron.glb", "nodes.glb", "embedded.gltf"}) {
+    SCOPED_TRACE(name);
+    std::ifstream file(kCorpus / name, std::ios::binary);
+    const std::string bytes(std::istreambuf_iterator<char>(file), {});
+    ASSERT_FALSE(bytes.empty());
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+      SCOPED_TRACE(i);
+      expect_mesh_or_message(name, std::string_view(bytes).substr(0, i));
+      for (const unsigned char change : {0x01, 0x02, 0x10, 0x80}) {
+        std::string changed = bytes;
+        changed[i] = static_cast<char>(bytes[i] ^ change);
+        expect_mesh_or_message(name, changed);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace partwise
