@@ -1,5 +1,5 @@
 // partwise_demo OUT_DIR: decomposes the shipped models, draws them, lets copies of them fall into a heap, and writes
-// OUT_DIR/index.html, a self-contained page.
+// OUT_DIR/index.html, a self-contained page, and OUT_DIR/hero.png: four models, their parts and hulls in one picture.
 
 #include <fmt/format.h>
 #include <tbb/info.h>
@@ -15,7 +15,7 @@
 #include "partwise/base/atomic_file.h"
 #include "partwise/base/shared_files.h"
 #include "partwise/geometry/mesh_io.h"
-#include "partwise/geometry/topology.h"
+#include "partwise/imaging/png.h"
 #include "pictures.h"
 
 namespace {
@@ -58,8 +58,8 @@ Decomposed decompose_model(const demo::Model& model, double tolerance, demo::Mod
   return result;
 }
 
-std::vector<demo::Picture> picture_model(const demo::Model& model, const Decomposed& decomposed) {
-  const demo::ModelPictures drawn = demo::draw_model(decomposed.mesh, decomposed.parts, model.azimuth);
+std::vector<demo::Picture> tell_pictures(const demo::Model& model, const Decomposed& decomposed,
+                                         const demo::ModelPictures& drawn) {
   std::vector<demo::Picture> pictures;
   const auto add = [&](const partwise::Image& image, std::string caption, std::string_view shown) {
     pictures.push_back(demo::make_picture(image, std::move(caption), fmt::format("{}: {}", model.name, shown)));
@@ -86,6 +86,15 @@ demo::PileStory tell_pile(const demo::PileSettings& settings, const demo::Pile& 
   return story;
 }
 
+// A column a model: input, parts, hulls.
+void write_hero(const std::filesystem::path& path, const std::vector<demo::ModelPictures>& models) {
+  std::vector<partwise::Image> pictures;
+  for (const auto row : {&demo::ModelPictures::input, &demo::ModelPictures::parts, &demo::ModelPictures::hulls}) {
+    for (const demo::ModelPictures& model : models) pictures.push_back(model.*row);
+  }
+  partwise::write_png(path, demo::tile(pictures, static_cast<int>(models.size())));
+}
+
 void run(const std::filesystem::path& folder) {
   const Clock::time_point start = Clock::now();
   std::filesystem::create_directories(folder);
@@ -103,13 +112,17 @@ void run(const std::filesystem::path& folder) {
   for (const Decomposed& model : decomposed) kinds.push_back({&model.mesh, &model.parts});
   const demo::PileSettings settings;
   std::future<demo::Pile> pile = std::async(std::launch::async, [&] { return demo::simulate_pile(kinds, settings); });
+  std::vector<demo::ModelPictures> hero;
   for (std::size_t i = 0; i < models.size(); ++i) {
     show(fmt::format("drawing: {} ({} of {})", models[i].name, i + 1, models.size()));
-    story.models[i].pictures = picture_model(models[i], decomposed[i]);
+    demo::ModelPictures drawn = demo::draw_model(decomposed[i].mesh, decomposed[i].parts, models[i].azimuth);
+    story.models[i].pictures = tell_pictures(models[i], decomposed[i], drawn);
+    if (models[i].in_hero) hero.push_back(std::move(drawn));
   }
   show("simulating and drawing the heap");
   story.pile = tell_pile(settings, pile.get());
   story.seconds = seconds_since(start);
+  write_hero(folder / "hero.png", hero);
   partwise::write_file(folder / "index.html", demo::make_page(story));
   show("");
   fmt::print("{} models and a heap of {} in {:.1f} s: {}\n", models.size(), settings.bodies, story.seconds,

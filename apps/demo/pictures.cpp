@@ -1,5 +1,7 @@
 #include "pictures.h"
 
+#include <algorithm>
+
 #include "partwise/appearance/palette.h"
 
 namespace demo {
@@ -52,6 +54,20 @@ ModelPictures draw_model(const Mesh& mesh, const partwise::Decomposition& parts,
   scene.meshes = hull_meshes(parts, 0.3);
   pictures.hulls = draw(scene, azimuth);
   return pictures;
+}
+
+Image tile(std::span<const Image> pictures, int columns) {
+  const Image& first = pictures[0];
+  const int rows = (static_cast<int>(pictures.size()) + columns - 1) / columns;
+  Image sheet(columns * first.width, rows * first.height, first.channels);
+  for (int i = 0; i < static_cast<int>(pictures.size()); ++i) {
+    const Image& picture = pictures[static_cast<std::size_t>(i)];
+    for (int y = 0; y < first.height; ++y) {
+      std::copy_n(picture.pixel(0, y), first.width * first.channels,
+                  sheet.pixel(i % columns * first.width, i / columns * first.height + y));
+    }
+  }
+  return sheet;
 }
 
 }  // namespace demo
