@@ -11,7 +11,8 @@ struct Model {
   std::string_view name;
   std::string_view author;
   std::string_view licence;
-  double azimuth;  // degrees: from where it is best seen
+  double azimuth;        // degrees: from where it is best seen
+  bool in_hero = false;  // it is in the one picture that stands for all
 };
 
 std::span<const Model> models();

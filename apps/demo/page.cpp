@@ -79,12 +79,12 @@ std::string opening(const Story& story) {
 <h1>Shapes into nearly convex parts</h1>
 <p class="lead">Physics engines, planners and robots want convex pieces; people model horses, chairs and coffee cups.
 Partwise finds the few parts whose convex hulls stand in for the shape, within one tolerance that you choose,
-and proves that they do.</p>
+and certifies that they do.</p>
 </header>
 )";
   html += "<div class=\"hero\">\n" + figure(story.pile.heap, "eager") + "</div>\n<dl class=\"facts large\">\n";
   html += fact("parts a model, mean", fmt::format("{:.1f}", sum.parts / count));
-  html += fact("hull volume to solid volume, mean", fmt::format("{:.2f}", sum.ratio));
+  html += fact("hull volume to solid volume, mean of the closed", fmt::format("{:.2f}", sum.ratio));
   html += fact("largest concavity of any part", fmt::format("{:.3f}", sum.concavity), "R");
   html += fact("to decompose a model, mean", fmt::format("{:.2f}", sum.seconds / count), "s");
   return html + "</dl>\n";
@@ -117,15 +117,15 @@ each hull encloses its part.</p>
   return html + "</section>\n";
 }
 
-std::string pile_section(const PileStory& pile, int threads) {
+std::string pile_section(const PileStory& pile) {
   std::string html = fmt::format(
       R"(<section>
 <h2>Ready to simulate</h2>
 <p>{} copies, {} convex hulls in all, fall onto a floor in Bullet. Each body is a compound of its model's hulls with their mass
-and inertia. {:.0f} seconds of simulation took {:.1f} seconds on one of {} threads, and at the end no hull reached more than
+and inertia. {:.0f} seconds of simulation took {:.1f} seconds of one core, and at the end no hull reached more than
 {:.3f} R below the floor.</p>
 )",
-      pile.bodies, thousands(pile.hulls), pile.simulated, pile.seconds, threads, pile.deepest);
+      pile.bodies, thousands(pile.hulls), pile.simulated, pile.seconds, pile.deepest);
   html += figures(pile.falling, "row");
   return html + "<div class=\"wide\">\n" + figure(pile.heap_hulls, "eager") + "</div>\n</section>\n";
 }
@@ -184,7 +184,7 @@ std::string make_page(const Story& story) {
 )";
   html += page_style;
   html += "</style>\n</head>\n<body>\n<main>\n";
-  html += opening(story) + models_section(story) + pile_section(story.pile, story.threads) + use_section();
+  html += opening(story) + models_section(story) + pile_section(story.pile) + use_section();
   return html + "</main>\n" + closing(story) + "</body>\n</html>\n";
 }
 

@@ -1,5 +1,7 @@
 #include "pictures.h"
 
+#include <algorithm>
+
 #include "partwise/appearance/palette.h"
 
 namespace demo {
@@ -30,7 +32,12 @@ std::vector<PreviewMesh> hull_meshes(const partwise::Decomposition& parts, doubl
   std::vector<PreviewMesh> meshes;
   for (const Mesh& hull : parts.hulls) {
     PreviewMesh moved{hull, {}, partwise::part_colour(static_cast<int>(meshes.size())), 20};
-    moved.mesh.vertices.rowwise() += apart * (middle(hull.vertices) - centre);
+    // Hulls of neighbours share planes. Each is drawn a hair smaller than the one before, so that one of them is in
+    // front.
+    const Point own = middle(hull.vertices);
+    const double shrink = 1 - 3e-4 * static_cast<double>(1 + meshes.size() % 16);
+    moved.mesh.vertices = (hull.vertices.rowwise() - own) * shrink;
+    moved.mesh.vertices.rowwise() += own + apart * (own - centre);
     meshes.push_back(std::move(moved));
   }
   return meshes;
@@ -47,6 +54,20 @@ ModelPictures draw_model(const Mesh& mesh, const partwise::Decomposition& parts,
   scene.meshes = hull_meshes(parts, 0.3);
   pictures.hulls = draw(scene, azimuth);
   return pictures;
+}
+
+Image tile(std::span<const Image> pictures, int columns) {
+  const Image& first = pictures[0];
+  const int rows = (static_cast<int>(pictures.size()) + columns - 1) / columns;
+  Image sheet(columns * first.width, rows * first.height, first.channels);
+  for (int i = 0; i < static_cast<int>(pictures.size()); ++i) {
+    const Image& picture = pictures[static_cast<std::size_t>(i)];
+    for (int y = 0; y < first.height; ++y) {
+      std::copy_n(picture.pixel(0, y), first.width * first.channels,
+                  sheet.pixel(i % columns * first.width, i / columns * first.height + y));
+    }
+  }
+  return sheet;
 }
 
 }  // namespace demo

@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <numbers>
 #include <random>
 
@@ -20,7 +20,7 @@ using partwise::Point;
 using partwise::PreviewMesh;
 using partwise::PreviewScene;
 
-constexpr int steps_a_second = 240;
+constexpr int steps_a_second = 120, released_together = 4;
 
 struct Body {
   std::size_t kind;
@@ -46,24 +46,26 @@ partwise::Vertices placed(const Compound& compound, const btTransform& pose, con
   return result;
 }
 
+double core_seconds() {  // that this thread has used
+  std::timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 class Heap {
  public:
   Heap(std::span<const PileKind> kinds, const PileSettings& settings) : kinds_(kinds), settings_(settings) {
     for (const PileKind& kind : kinds) compounds_.push_back(make_compound(kind.parts->hulls, 1 / kind.parts->radius));
-    // Layers of five around one, the next layer turned; a bounding sphere of 1 m each.
-    std::mt19937 random(7);
-    for (int i = 0; i < settings.bodies; ++i) {
-      const std::size_t kind = static_cast<std::size_t>(i) % kinds.size();
-      const int layer = i / 6, place = i % 6;
-      const double angle = 2 * std::numbers::pi * place / 5 + 0.9 * layer, out = place == 5 ? 0 : 2.05;
-      const btVector3 centre(static_cast<btScalar>(out * std::cos(angle)), static_cast<btScalar>(1.3 + 2.0 * layer),
-                             static_cast<btScalar>(out * std::sin(angle)));
-      bodies_.push_back({kind, &world_.add(make_body(compounds_[kind], btTransform(random_turn(random), centre)))});
-    }
   }
 
   void run(double until) {
-    for (; steps_ < until * steps_a_second; ++steps_) world_.step(btScalar(1) / steps_a_second);
+    for (; steps_ < until * steps_a_second; ++steps_) {
+      if (bodies_.size() < static_cast<std::size_t>(settings_.bodies) &&
+          steps_ >= settings_.interval * static_cast<double>(bodies_.size() / released_together) * steps_a_second) {
+        release();
+      }
+      world_.step(btScalar(1) / steps_a_second);
+    }
   }
 
   PreviewScene scene(bool as_hulls) const {
@@ -86,12 +88,6 @@ class Heap {
     return scene;
   }
 
-  double fastest() const {
-    btScalar speed = 0;
-    for (const Body& body : bodies_) speed = std::max(speed, body.rigid->getLinearVelocity().length());
-    return speed;
-  }
-
   int hulls() const {
     int count = 0;
     for (const Body& body : bodies_) count += kinds_[body.kind].parts->parts();
@@ -99,62 +95,81 @@ class Heap {
   }
 
  private:
+  // Bodies in a ring that their bounding spheres, of 1 m, do not leave, high above the heap and on their way down.
+  void release() {
+    for (int i = 0; i < released_together && bodies_.size() < static_cast<std::size_t>(settings_.bodies); ++i) {
+      const std::size_t kind = bodies_.size() % kinds_.size();
+      const double angle = 2 * std::numbers::pi * i / released_together + 0.9 * static_cast<double>(bodies_.size());
+      const btVector3 place(static_cast<btScalar>(1.45 * std::cos(angle)), 8,
+                            static_cast<btScalar>(1.45 * std::sin(angle)));
+      btRigidBody& rigid = world_.add(make_body(compounds_[kind], btTransform(random_turn(random_), place)));
+      rigid.setLinearVelocity({0, -3, 0});
+      bodies_.push_back({kind, &rigid});
+    }
+  }
+
   std::span<const PileKind> kinds_;
   const PileSettings settings_;
+  std::mt19937 random_{7};
   std::vector<Compound> compounds_;  // outlive the world's bodies
   World world_;
   std::vector<Body> bodies_;
   int steps_ = 0;
 };
 
-// The viewer stands still while the bodies fall: the camera sees the heap as it will be and a column above it.
+// Looks at the middle of the heap: nine tenths of the bodies, those nearest its axis, fill the picture; what rolled
+// away may leave it. With `column` the view also holds that height above the floor, from which bodies fall.
 partwise::PreviewCamera camera_for(const PreviewScene& heap, double column, double aspect) {
-  PreviewScene framed = heap;
-  if (column > 0) {
-    PreviewMesh top;
-    top.mesh.vertices = Point(0, column, 0);
-    framed.meshes.push_back(top);
+  std::vector<std::pair<double, std::size_t>> by_distance;
+  for (std::size_t i = 0; i < heap.meshes.size(); ++i) {
+    const Point middle = heap.meshes[i].mesh.vertices.colwise().mean();
+    by_distance.emplace_back(std::hypot(middle.x(), middle.z()), i);
   }
+  std::sort(by_distance.begin(), by_distance.end());
+  PreviewScene framed;
+  for (std::size_t i = 0; i < (by_distance.size() * 9 + 9) / 10; ++i) {
+    framed.meshes.push_back(heap.meshes[by_distance[i].second]);
+  }
+  if (column > 0) framed.meshes.emplace_back().mesh.vertices = Point(0, column, 0);
   partwise::PreviewView view;
   view.azimuth = 30;
-  view.elevation = 24;
-  view.fill = 0.94;
+  view.elevation = 18;
+  view.fill = 0.84;
   return frame_scene(framed, view, aspect);
 }
 
 }  // namespace
 
 Pile simulate_pile(std::span<const PileKind> kinds, const PileSettings& settings) {
-  using Clock = std::chrono::steady_clock;
   Heap heap(kinds, settings);
   Pile pile;
-  pile.hulls = heap.hulls();
-  const auto run = [&](double until) {
-    const auto start = Clock::now();
-    heap.run(until);
-    pile.seconds += std::chrono::duration<double>(Clock::now() - start).count();
-  };
-  std::vector<PreviewScene> falling;
+  const double start = core_seconds();
   for (const double time : settings.frames) {
-    run(time);
-    falling.push_back(heap.scene(false));
+    heap.run(time);
+    pile.falling.push_back(heap.scene(false));
   }
-  run(settings.seconds);
-  pile.fastest = heap.fastest();
-
-  const PreviewScene as_meshes = heap.scene(false), as_hulls = heap.scene(true);
-  for (const PreviewMesh& hull : as_hulls.meshes) {
+  heap.run(settings.seconds);
+  pile.seconds = core_seconds() - start;
+  pile.hulls = heap.hulls();
+  pile.heap = heap.scene(false);
+  pile.heap_hulls = heap.scene(true);
+  for (const PreviewMesh& hull : pile.heap_hulls.meshes) {
     pile.deepest = std::max(pile.deepest, -hull.mesh.vertices.col(1).minCoeff());
   }
-  const partwise::PreviewCamera fall_camera =
-      camera_for(as_meshes, 7, static_cast<double>(settings.width) / settings.height);
-  for (PreviewScene& scene : falling) {
-    pile.frames.push_back(render_preview(scene, fall_camera, {settings.width, settings.height, 2}));
-  }
-  const partwise::PreviewCamera heap_camera = camera_for(as_meshes, 0, 2.0 * settings.width / settings.height);
-  pile.heap = render_preview(as_meshes, heap_camera, {2 * settings.width, settings.height, 2});
-  pile.heap_hulls = render_preview(as_hulls, heap_camera, {2 * settings.width, settings.height, 2});
   return pile;
+}
+
+PilePictures draw_pile(const Pile& pile, const PileSettings& settings) {
+  PilePictures pictures;
+  const double aspect = static_cast<double>(settings.width) / settings.height;
+  const partwise::PreviewCamera fall_camera = camera_for(pile.heap, 8, aspect);
+  for (const PreviewScene& scene : pile.falling) {
+    pictures.falling.push_back(render_preview(scene, fall_camera, {settings.width, settings.height, 2}));
+  }
+  const partwise::PreviewCamera heap_camera = camera_for(pile.heap, 0, 2 * aspect);
+  pictures.heap = render_preview(pile.heap, heap_camera, {2 * settings.width, settings.height, 2});
+  pictures.heap_hulls = render_preview(pile.heap_hulls, heap_camera, {2 * settings.width, settings.height, 2});
+  return pictures;
 }
 
 }  // namespace demo

@@ -57,8 +57,8 @@ std::unique_ptr<btRigidBody> make_body(const Compound& compound, const btTransfo
   btRigidBody::btRigidBodyConstructionInfo info(compound.mass, nullptr, compound.shape.get(), compound.inertia);
   info.m_startWorldTransform = pose;
   info.m_friction = 0.7f;
-  info.m_rollingFriction = 0.02f;  // or a cup would roll for ever on an ideal plane
-  info.m_spinningFriction = 0.02f;
+  info.m_rollingFriction = 0.05f;  // or a cup would roll for ever on an ideal plane
+  info.m_spinningFriction = 0.05f;
   info.m_linearDamping = 0.02f;
   info.m_angularDamping = 0.05f;
   return std::make_unique<btRigidBody>(info);

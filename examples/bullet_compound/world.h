@@ -12,8 +12,8 @@ class World {
     dynamics_.setGravity({0, -9.81f, 0});
     btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, &floor_shape_);
     info.m_friction = 0.9f;
-    info.m_rollingFriction = 0.02f;
-    info.m_spinningFriction = 0.02f;
+    info.m_rollingFriction = 0.5f;
+    info.m_spinningFriction = 0.5f;
     floor_ = std::make_unique<btRigidBody>(info);
     dynamics_.addRigidBody(floor_.get());
   }

@@ -19,8 +19,9 @@ Eigen::Vector3f oklab(float lightness, float chroma, float hue_degrees) {
 
 std::array<Eigen::Vector3f, part_colours> farthest_first() {
   std::vector<Eigen::Vector3f> candidates{oklab(0.66f, 0.09f, 250)};
-  for (float lightness = 0.56f; lightness < 0.86f; lightness += 0.04f) {
-    for (float chroma = 0.05f; chroma < 0.12f; chroma += 0.02f) {
+  for (float lightness = 0.58f; lightness < 0.84f; lightness += 0.04f) {
+    const float most = 0.105f - 0.16f * std::max(0.0f, lightness - 0.66f);  // light colours glare sooner
+    for (float chroma = most; chroma > 0.03f; chroma -= 0.02f) {
       for (float hue = 0; hue < 360; hue += 10) {
         const Eigen::Vector3f lab = oklab(lightness, chroma, hue);
         const Eigen::Vector3f rgb = linear_from_oklab(lab);

@@ -21,8 +21,8 @@ constexpr float pi = std::numbers::pi_v<float>;
 constexpr float golden_angle = 2.3999632f;
 
 // The light. Radiances are those of a matt white surface that would look as bright.
-constexpr float key_cosine_gain = 0.72f;  // white surface facing the key light
-constexpr float sky_zenith = 0.66f, sky_horizon = 0.46f, ground_bounce = 0.26f;
+constexpr float key_cosine_gain = 0.88f;  // white surface facing the key light
+constexpr float sky_zenith = 0.60f, sky_horizon = 0.42f, ground_bounce = 0.24f;
 constexpr float between_surfaces = 0.30f;  // of a surface's colour comes back from what blocks its sky
 constexpr float key_disk = 0.075f;         // tangent of the key light's angular radius
 
@@ -201,12 +201,12 @@ class Renderer {
     return sky / total + back + Vector::Constant(key_cosine_gain * facing * key / total);
   }
 
-  // How dark the ground's shadow looks; it fades out before the eye could see where the traced ground ends.
+  // How dark the ground's shadow looks. Its faint outskirts are left out, or they would end at the picture's frame.
   float shadow_alpha(const Sample& ground, const Vector& light, float open_light) const {
     const float ratio = std::clamp(light.y() / open_light, 0.0f, 1.0f);
     const float away = (ground.position - rays_.centre()).norm() / rays_.size();
-    const float fade = std::clamp((1.6f - away) / 0.9f, 0.0f, 1.0f);
-    return 0.75f * fade * (1 - std::pow(ratio, 1 / 2.2f));
+    const float fade = std::clamp((1.4f - away) / 0.8f, 0.0f, 1.0f);
+    return std::max(0.0f, 0.77f * fade * (1 - std::pow(ratio, 1 / 2.2f)) - 0.02f);
   }
 
   void resolve(int px, int py, float open_light, float* pixel) {

@@ -25,7 +25,7 @@ namespace partwise {
 struct PreviewMesh {
   Mesh mesh;
   std::vector<Eigen::Vector3f> face_colours;                      // one a face, or none: then all faces have `colour`
-  Eigen::Vector3f colour = Eigen::Vector3f(0.56f, 0.55f, 0.53f);  // albedo
+  Eigen::Vector3f colour = Eigen::Vector3f(0.58f, 0.56f, 0.53f);  // albedo
   double crease_degrees = 40;                                     // 0: every face is flat
 };
 
