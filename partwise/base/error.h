@@ -32,12 +32,12 @@ class CheckFailed : public std::logic_error {
 }  // namespace partwise
 
 // PARTWISE_CHECK(a, ==, b) throws CheckFailed with both expressions and both values.
-#define PARTWISE_CHECK(a, op, b)                                                                                   \
-  do {                                                                                                             \
-    const auto& partwise_check_a = (a);                                                                            \
-    const auto& partwise_check_b = (b);                                                                            \
-    if (!(partwise_check_a op partwise_check_b)) {                                                                 \
+#define PARTWISE_CHECK(a, op, b)                                                                                     \
+  do {                                                                                                               \
+    const auto& partwise_check_a = (a);                                                                              \
+    const auto& partwise_check_b = (b);                                                                              \
+    if (!(partwise_check_a op partwise_check_b)) {                                                                   \
       throw ::partwise::CheckFailed(fmt::format("{}:{}: check failed: {} {} {} ({} and {})", __FILE__, __LINE__, #a, \
-                                                #op, #b, partwise_check_a, partwise_check_b));                     \
-    }                                                                                                              \
+                                                #op, #b, partwise_check_a, partwise_check_b));                       \
+    }                                                                                                                \
   } while (false)

@@ -8,6 +8,7 @@ extern "C" {
 }
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <memory>
 
@@ -72,7 +73,7 @@ std::vector<std::array<int, 3>> qhull_facets(const Vertices& points) {
     }
     PARTWISE_CHECK(k, ==, 3);
     // Qhull's `toporient` tells the order of the vertices in the set.
-    if (facet->toporient == qh_ORIENTclock) std::swap(corner[0], corner[1]);
+    if (facet->toporient != qh_ORIENTclock) std::swap(corner[0], corner[1]);
     facets.push_back(corner);
   }
   return facets;
@@ -110,10 +111,6 @@ ConvexHull convex_hull(const Vertices& points, double minimum_thickness) {
   for (std::size_t f = 0; f < facets.size(); ++f)
     for (int k = 0; k < 3; ++k) hull.mesh.faces(static_cast<Eigen::Index>(f), k) = index[facets[f][k]];
   hull.volume = signed_volume(hull.mesh);
-  if (hull.volume < 0) {
-    hull.mesh.faces.col(0).swap(hull.mesh.faces.col(1));
-    hull.volume = -hull.volume;
-  }
   // Thickening stacks whole copies of the points.
   for (int& v : used) v %= static_cast<int>(points.rows());
   hull.source = std::move(used);

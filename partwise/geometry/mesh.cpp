@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 
 namespace partwise {
 namespace {
@@ -35,7 +34,8 @@ Sphere smallest(const Vertices& points, std::vector<int>& order, std::size_t end
     if (sphere.radius >= 0 && (p - sphere.centre).norm() <= sphere.radius + slack) continue;
     support[count] = p;
     sphere = smallest(points, order, i, support, count + 1, slack);
-    std::rotate(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(i), order.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+    std::rotate(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(i),
+                order.begin() + static_cast<std::ptrdiff_t>(i) + 1);
   }
   return sphere;
 }
@@ -50,17 +50,28 @@ Sphere bounding_sphere(const Mesh& mesh) {
   for (int v = 0; v < mesh.vertices.rows(); ++v)
     if (used[v]) order.push_back(v);
 
-  // Far points first: move to front then does little.
-  Point middle = Point::Zero();
-  for (int v : order) middle += mesh.vertices.row(v) / static_cast<double>(order.size());
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return (mesh.vertices.row(a) - middle).squaredNorm() > (mesh.vertices.row(b) - middle).squaredNorm();
-  });
-  const double scale = (mesh.vertices.row(order.front()) - middle).norm();
-  std::array<Point, 4> support;
-  Sphere sphere = smallest(mesh.vertices, order, order.size(), support, 0, 1e-12 * scale);
-  for (int v : order) sphere.radius = std::max(sphere.radius, (mesh.vertices.row(v) - sphere.centre).norm());
-  return sphere;
+  // Only a few points matter: those farthest out of the sphere so far are added one by one (Gaertner 1999).
+  const auto farthest_from = [&](const Point& centre) {
+    int farthest = order.front();
+    double distance = -1;
+    for (int v : order) {
+      const double d = (mesh.vertices.row(v) - centre).squaredNorm();
+      if (d > distance) distance = d, farthest = v;
+    }
+    return farthest;
+  };
+  std::vector<int> active{farthest_from(mesh.vertices.row(order.front()))};
+  const Point first = mesh.vertices.row(active.front());
+  const double slack = 1e-12 * (mesh.vertices.row(farthest_from(first)) - first).norm();
+  for (;;) {
+    std::array<Point, 4> support;
+    Sphere sphere = smallest(mesh.vertices, active, active.size(), support, 0, slack);
+    const int farthest = farthest_from(sphere.centre);
+    const double distance = (mesh.vertices.row(farthest) - sphere.centre).norm();
+    if (distance <= sphere.radius + slack || std::ranges::find(active, farthest) != active.end())
+      return {sphere.centre, std::max(sphere.radius, distance)};
+    active.insert(active.begin(), farthest);
+  }
 }
 
 double signed_volume(const Mesh& mesh) {
@@ -68,7 +79,8 @@ double signed_volume(const Mesh& mesh) {
   const Point origin = mesh.vertices.row(mesh.faces(0, 0));  // Near the mesh, so that far meshes lose no digits.
   double six = 0;
   for (const auto& f : mesh.faces.rowwise()) {
-    const Point a = mesh.vertices.row(f[0]) - origin, b = mesh.vertices.row(f[1]) - origin, c = mesh.vertices.row(f[2]) - origin;
+    const Point a = mesh.vertices.row(f[0]) - origin, b = mesh.vertices.row(f[1]) - origin,
+                c = mesh.vertices.row(f[2]) - origin;
     six += a.dot(b.cross(c));
   }
   return six / 6;

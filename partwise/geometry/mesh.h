@@ -21,7 +21,7 @@ struct Sphere {
   double radius = 0;
 };
 
-// The smallest sphere that encloses all vertices used by a face (Welzl 1991, move to front). A mesh without faces: radius 0.
+// The smallest sphere that encloses all vertices used by a face (Welzl 1991 on the few that matter: Gaertner 1999). A mesh without faces: radius 0.
 Sphere bounding_sphere(const Mesh& mesh);
 
 // Signed volume by the divergence theorem, positive when faces are counter-clockwise from outside. For closed meshes.

@@ -1,0 +1,329 @@
+"""The program as a person or a script meets it: exit codes, messages, reports, and files that appear whole or not at all.
+
+    cli_test.py PROGRAM [GROUP]
+"""
+
+import json
+import os
+import pty
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+PROGRAM = ""
+NOTCH = Path(__file__).resolve().parents[2] / "examples" / "notch.obj"
+
+
+class CommandLine(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="partwise-cli-")
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def run_program(self, *arguments, **options):
+        return subprocess.run(
+            [PROGRAM, *map(str, arguments)], capture_output=True, text=True, cwd=self.folder, timeout=60, **options
+        )
+
+    def decompose(self, *arguments, mesh=NOTCH, tolerance=0.1, **options):
+        return self.run_program("decompose", mesh, "--tolerance", tolerance, *arguments, **options)
+
+    def assert_done(self, result):
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+
+    def assert_refused(self, result, code, *words):
+        """Nothing but one line on standard error, and no file left."""
+        self.assertEqual(result.returncode, code, result)
+        self.assertEqual(result.stdout, "")
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        self.assertTrue(result.stderr.endswith("\n"))
+        for word in words:
+            self.assertIn(word, result.stderr)
+
+    def assert_files(self, *names):
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), sorted(names))
+
+
+class Usage(CommandLine):
+    def test_wrong_usage_is_one_line_and_2(self):
+        mesh = str(NOTCH)
+        whole = ["decompose", mesh, "--tolerance", "0.1"]
+        cases = [
+            ([], "verb"),
+            (["--no-such-option"], "--no-such-option"),
+            (["no-such-verb"], "no-such-verb"),
+            (["decompose"], "MESH"),
+            (["decompose", mesh], "--tolerance"),
+            (["decompose", "--tolerance", "0.1"], "MESH"),
+            (whole + ["--no-such-option"], "--no-such-option"),
+            (whole + ["second.off"], "second.off"),
+            (whole + ["--measure", "volume"], "--measure"),
+            (whole + ["--measure"], "--measure"),
+            (whole + ["--cup-repair"], "--cup-repair"),
+            (whole + ["--max-hulls", "0"], "--max-hulls"),
+            (whole + ["--max-hulls", "two"], "--max-hulls"),
+            (whole + ["--max-hulls", "99999999999999999999"], "--max-hulls"),
+            (whole + ["--max-hull-vertices", "3"], "--max-hull-vertices"),
+            (whole + ["--threads", "0"], "--threads"),
+            (whole + ["--threads", "-1"], "--threads"),
+            (whole + ["--seed", "-1"], "--seed"),
+            (whole + ["--labels"], "--labels"),
+            (whole + ["--labels", ""], "--labels"),
+            (whole + ["--hulls", "hulls.xyz"], ".obj"),
+            (whole + ["--glb", "parts.obj"], ".glb"),
+            (whole + ["--urdf", "robot.xml"], ".urdf"),
+            (whole + ["--mjcf", "robot.urdf"], ".xml"),
+        ]
+        cases += [
+            (["decompose", mesh, "--tolerance", value], "--tolerance")
+            for value in ("0", "-0.1", "nan", "inf", "1e999", "0.1x", "")
+        ]
+        for arguments, word in cases:
+            with self.subTest(arguments=arguments):
+                self.assert_refused(self.run_program(*arguments), 2, "partwise", word, "--help")
+                self.assert_files()
+
+    def test_two_names_for_one_file(self):
+        (self.folder / "link.glb").symlink_to("same.glb")
+        for second in ("same.glb", "./same.glb", "../" + self.folder.name + "/same.glb", self.folder / "same.glb"):
+            with self.subTest(second=second):
+                result = self.decompose("--hulls", "same.glb", "--glb", second)
+                self.assert_refused(result, 2, "--hulls", "--glb", "same file")
+        result = self.decompose("--json", "same", "--labels", "same")
+        self.assert_refused(result, 2, "--json", "--labels", "same file")
+        self.assert_files("link.glb")
+
+    def test_an_input_is_not_written_over(self):
+        mesh = self.folder / "mesh.obj"
+        mesh.write_bytes(NOTCH.read_bytes())
+        (self.folder / "link.obj").symlink_to("mesh.obj")
+        for option, name in (("--hulls", "mesh.obj"), ("--hulls", "link.obj"), ("--json", "mesh.obj")):
+            self.assert_refused(self.decompose(option, name, mesh=mesh), 2, "MESH", option)
+        self.assertEqual(mesh.read_bytes(), NOTCH.read_bytes())
+
+    def test_help_teaches_with_an_example(self):
+        result = self.run_program("--help")
+        self.assert_done(result)
+        self.assertIn("decompose", result.stdout)
+        result = self.run_program("decompose", "--help")
+        self.assert_done(result)
+        self.assertIn("Example:\n  partwise decompose ", result.stdout)
+        for option in (
+            "--tolerance --absolute --measure --cup-repair --max-hulls --max-hull-vertices --labels --hulls --glb --urdf "
+            "--mjcf --threads --seed --quiet --json --help"
+        ).split():
+            self.assertIn(option, result.stdout)
+
+    def test_version(self):
+        result = self.run_program("--version")
+        self.assert_done(result)
+        self.assertRegex(result.stdout, r"^partwise \d+\.\d+\.\d+\n$")
+
+
+class Results(CommandLine):
+    fields = "parts tolerance concavity volume_ratio watertight radius measure cut_inside seconds files".split()
+
+    def test_every_output_is_there(self):
+        outputs = dict(labels="a.seg", hulls="a.obj", glb="a.glb", urdf="a.urdf", mjcf="a.xml")
+        arguments = [part for name, file in outputs.items() for part in ("--" + name, file)]
+        result = self.decompose(*arguments, "--json", "a.json")
+        self.assert_done(result)
+        self.assertIn("a.seg", result.stdout)
+        report = json.loads((self.folder / "a.json").read_text())
+        for field in self.fields:
+            self.assertIn(field, report)
+        self.assertEqual(report["files"], outputs)
+        for stage in ("read", "write", "total"):
+            self.assertGreaterEqual(report["seconds"][stage], 0)
+        self.assertLessEqual(report["concavity"], report["tolerance"])
+        self.assertTrue(report["watertight"])
+        self.assertAlmostEqual(report["radius"], 3**0.5 / 2, places=9)
+
+        labels = [int(line) for line in (self.folder / "a.seg").read_text().split()]
+        self.assertEqual(len(labels), 28)
+        self.assertEqual(sorted(set(labels)), list(range(report["parts"])))
+        lines = (self.folder / "a.obj").read_text().splitlines()
+        self.assertEqual(sum(line.startswith("o ") for line in lines), report["parts"])
+        self.assertEqual((self.folder / "a.glb").read_bytes()[:4], b"glTF")
+        for name in ("a.urdf", "a.xml"):
+            text = (self.folder / name).read_text()
+            meshes = re.findall(r'"([^"]*\.obj)"', text)
+            self.assertGreaterEqual(len(meshes), report["parts"])
+            for mesh in meshes:
+                self.assertTrue((self.folder / mesh).is_file() or (self.folder / "a_hulls" / mesh).is_file(), mesh)
+        self.assert_files("a.json", "a_hulls", *outputs.values())
+
+    def test_json_on_standard_output_is_all_there_is(self):
+        result = self.decompose("--json", "-")
+        self.assert_done(result)
+        self.assertEqual(json.loads(result.stdout)["measure"], "hull")
+        result = self.decompose("--measure", "valley", "--cup-repair", "--json", "-")
+        self.assert_done(result)
+        self.assertEqual(json.loads(result.stdout)["measure"], "valley")
+        self.assert_files()
+
+    def test_an_open_mesh_has_no_ratio(self):
+        (self.folder / "open.off").write_text("OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n")
+        result = self.decompose("--json", "-", mesh="open.off", tolerance=0.8)
+        self.assert_done(result)
+        report = json.loads(result.stdout)
+        self.assertFalse(report["watertight"])
+        self.assertIsNone(report["volume_ratio"])
+
+    def test_quiet_and_loud(self):
+        self.assertEqual(self.decompose("--quiet").stdout, "")
+        result = self.decompose()
+        self.assert_done(result)
+        self.assertRegex(result.stdout, r"notch\.obj: \d+ parts?, concavity")
+        self.assertLessEqual(result.stdout.count("\n"), 2)
+
+    def test_absolute_is_in_model_units(self):
+        result = self.decompose("--absolute", "--json", "-", tolerance=0.05)
+        self.assert_done(result)
+        self.assertEqual(json.loads(result.stdout)["tolerance"], 0.05)
+
+    def test_the_same_bytes_for_any_threads(self):
+        files = []
+        for threads in (1, 2):
+            name = f"{threads}.glb"
+            self.assert_done(self.decompose("--threads", threads, "--seed", threads, "--glb", name))
+            files.append((self.folder / name).read_bytes())
+        self.assertEqual(*files)
+
+
+class Outputs(CommandLine):
+    def test_bad_places_are_told_before_the_work(self):
+        (self.folder / "a_folder").mkdir()
+        for place, words in (
+            ("none/a.seg", "no folder"),
+            ("a_folder", "is a folder"),
+            (NOTCH / "a.seg", "no folder"),
+        ):
+            for option in ("--labels", "--json"):
+                # The mesh is missing too: what is said first was looked at first.
+                result = self.decompose(option, place, mesh="none.off")
+                self.assert_refused(result, 1, words)
+        self.assert_files("a_folder")
+
+    def test_a_protected_folder(self):
+        # Not even root may make files here.
+        self.assert_refused(self.decompose("--labels", "/proc/a.seg"), 1, "/proc/a.seg", "cannot be written")
+        self.assert_refused(self.decompose("--labels", "/proc/a.seg", "--hulls", "a.obj"), 1, "/proc/a.seg")
+        self.assert_files()
+
+    def test_a_full_disk_leaves_nothing(self):
+        (self.folder / "a.obj").write_text("precious")
+        result = self.decompose("--labels", "/dev/full", "--hulls", "a.obj", "--glb", "a.glb", "--json", "a.json")
+        self.assert_refused(result, 1, "/dev/full", "No space left")
+        self.assert_files("a.obj")
+        self.assertEqual((self.folder / "a.obj").read_text(), "precious")
+        self.assertTrue(Path("/dev/full").is_char_device())
+
+    def test_a_report_that_cannot_be_printed_is_a_failure(self):
+        with open("/dev/full", "w") as full:
+            result = subprocess.run(
+                [PROGRAM, "decompose", NOTCH, "--tolerance", "0.1", "--json", "-"],
+                stdout=full, stderr=subprocess.PIPE, text=True, timeout=60,
+            )
+        self.assertEqual(result.returncode, 1)
+        self.assertEqual(result.stderr.count("\n"), 1)
+
+    def test_an_output_that_another_one_brings_along(self):
+        (self.folder / "a_hulls").mkdir()
+        result = self.decompose("--urdf", "a.urdf", "--hulls", "a_hulls/hull_000.obj")
+        self.assert_refused(result, 1, "a_hulls/hull_000.obj", "another output")
+        self.assert_files("a_hulls")
+
+    def test_devices_and_links(self):
+        result = self.decompose("--quiet", "--labels", "/dev/stdout")
+        self.assert_done(result)
+        self.assertEqual(len(result.stdout.split()), 28)
+        (self.folder / "link.seg").symlink_to("real.seg")
+        self.assert_done(self.decompose("--labels", "link.seg"))
+        self.assert_files("link.seg", "real.seg")
+
+    def test_old_files_are_replaced_only_by_a_success(self):
+        (self.folder / "a.seg").write_text("precious")
+        self.assert_refused(self.decompose("--labels", "a.seg", mesh="none.off"), 1, "none.off")
+        self.assertEqual((self.folder / "a.seg").read_text(), "precious")
+        self.assert_done(self.decompose("--labels", "a.seg"))
+        self.assertEqual(len((self.folder / "a.seg").read_text().split()), 28)
+        self.assert_files("a.seg")
+
+    def test_inputs_that_cannot_be_read(self):
+        (self.folder / "mesh.xyz").write_text("0 0 0\n")
+        (self.folder / "empty.off").write_text("")
+        (self.folder / "two\nlines.off").write_text("OFF\n1 2\n")
+        for mesh in ("none.off", "mesh.xyz", "empty.off", "two\nlines.off", self.folder):
+            with self.subTest(mesh=mesh):
+                self.assert_refused(self.decompose("--labels", "a.seg", mesh=mesh), 1)
+        self.assert_files("mesh.xyz", "empty.off", "two\nlines.off")
+
+
+class Stopping(CommandLine):
+    def big_mesh(self):
+        """A bumpy sheet that takes seconds, not milliseconds."""
+        side = 400
+        lines = ["OFF", f"{side * side} {2 * (side - 1) ** 2} 0"]
+        lines += [f"{x} {y} {9 * ((x // 20 + y // 20) % 2) + (x * y) % 3}" for y in range(side) for x in range(side)]
+        for y in range(side - 1):
+            for x in range(side - 1):
+                a = y * side + x
+                lines += [f"3 {a} {a + 1} {a + side}", f"3 {a + 1} {a + side + 1} {a + side}"]
+        path = self.folder / "sheet.off"
+        path.write_text("\n".join(lines) + "\n")
+        return path
+
+    def wait_for_handler(self, process, number):
+        deadline = time.monotonic() + 30
+        while time.monotonic() < deadline:
+            status = Path(f"/proc/{process.pid}/status").read_text()
+            caught = int(status.split("SigCgt:")[1].split()[0], 16)
+            if caught >> (number - 1) & 1:
+                return
+            time.sleep(0.001)
+        self.fail("the program does not catch the signal")
+
+    def test_ctrl_c_stops_cleanly(self):
+        mesh = self.big_mesh()
+        for number in (signal.SIGINT, signal.SIGTERM):
+            process = subprocess.Popen(
+                [PROGRAM, "decompose", mesh, "--tolerance", "0.01", "--labels", self.folder / "a.seg"],
+                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+            )
+            self.wait_for_handler(process, number)
+            process.send_signal(number)
+            output, message = process.communicate(timeout=60)
+            self.assertEqual(process.returncode, 128 + number, message)
+            self.assertEqual(output, "")
+            self.assertEqual(message, "partwise: stopped on request; nothing was written\n")
+            self.assert_files("sheet.off")
+
+    def test_progress_is_for_terminals(self):
+        for arguments, expected in (([], True), (["--quiet"], False)):
+            terminal, end = pty.openpty()
+            subprocess.run(
+                [PROGRAM, "decompose", NOTCH, "--tolerance", "0.1", *arguments],
+                stdout=subprocess.DEVNULL, stderr=end, timeout=60, check=True,
+            )
+            os.close(end)
+            shown = b""
+            try:
+                while chunk := os.read(terminal, 4096):
+                    shown += chunk
+            except OSError:
+                pass  # the other end is closed and everything is read
+            os.close(terminal)
+            self.assertEqual(b"%" in shown, expected)
+            if expected:
+                self.assertTrue(shown.endswith(b"\r\x1b[K"), "the line is wiped at the end")
+
+
+if __name__ == "__main__":
+    PROGRAM = os.path.abspath(sys.argv.pop(1))
+    unittest.main()

@@ -1,0 +1,49 @@
+// One run of a verb: what every verb is given, and what it leaves behind.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+#include "outputs.h"
+#include "partwise/base/progress.h"
+
+namespace partwise::cli {
+
+struct Run {
+  std::uint64_t seed = 0;
+  Progress progress;
+  Outputs outputs;
+  std::string summary;                                                // for people, on standard output
+  nlohmann::ordered_json report = nlohmann::ordered_json::object();   // for programs, --json
+  nlohmann::ordered_json seconds = nlohmann::ordered_json::object();  // wall time by stage, part of the report
+
+  // Runs `work` as a stage: polls for Ctrl-C, adds the wall time to `seconds`, returns what `work` returns.
+  template <typename Work>
+  decltype(auto) stage(const std::string& name, Work&& work) {
+    progress(name, 0);
+    const Timer timer(seconds, name);
+    return std::forward<Work>(work)();
+  }
+
+ private:
+  class Timer {
+   public:
+    Timer(nlohmann::ordered_json& seconds, std::string name) : seconds_(seconds), name_(std::move(name)) {}
+    ~Timer() {
+      const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+      seconds_[name_] = seconds_.value(name_, 0.0) + elapsed.count();
+    }
+    Timer(const Timer&) = delete;
+    Timer& operator=(const Timer&) = delete;
+
+   private:
+    nlohmann::ordered_json& seconds_;
+    std::string name_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  };
+};
+
+}  // namespace partwise::cli

@@ -1,0 +1,14 @@
+// The verbs, in the order in which --help lists them.
+#pragma once
+
+#include <array>
+
+#include "verb.h"
+
+namespace partwise::cli {
+
+extern const Verb decompose_verb;
+
+inline constexpr std::array verbs = {&decompose_verb};
+
+}  // namespace partwise::cli

@@ -1,0 +1,145 @@
+// partwise_demo OUT_DIR: decomposes the shipped models, draws them, lets copies of them fall into a heap, and writes
+// OUT_DIR/index.html, a self-contained page, and OUT_DIR/hero.png: four models, their parts and hulls in one picture.
+
+#include <fmt/format.h>
+#include <tbb/info.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <future>
+
+#include "page.h"
+#include "partwise/base/atomic_file.h"
+#include "partwise/base/shared_files.h"
+#include "partwise/geometry/mesh_io.h"
+#include "partwise/imaging/png.h"
+#include "pictures.h"
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+// One line that is rewritten on a terminal; nothing in a pipe.
+void show(const std::string& what) {
+  if (!::isatty(STDOUT_FILENO)) return;
+  fmt::print("\r\033[K{}", what);
+  std::fflush(stdout);
+}
+
+struct Decomposed {
+  partwise::Mesh mesh;
+  partwise::Decomposition parts;
+};
+
+Decomposed decompose_model(const demo::Model& model, double tolerance, demo::ModelStory& story) {
+  Decomposed result;
+  result.mesh = partwise::read_mesh(partwise::shared_file("data/models") / model.file);
+  partwise::DecompositionSettings settings;
+  settings.tolerance = tolerance;
+  Clock::time_point start = Clock::now();
+  result.parts = partwise::decompose(result.mesh, settings);
+  story.seconds = seconds_since(start);
+  settings.measure = partwise::ConcavityMeasure::valley;
+  start = Clock::now();
+  story.valley_parts = partwise::decompose(result.mesh, settings).parts();
+  story.valley_seconds = seconds_since(start);
+
+  story.model = model;
+  story.faces = static_cast<int>(result.mesh.faces.rows());
+  story.watertight = result.parts.watertight;
+  story.parts = result.parts.parts();
+  story.concavity = result.parts.concavity;
+  story.volume_ratio = result.parts.volume_ratio;
+  return result;
+}
+
+std::vector<demo::Picture> tell_pictures(const demo::Model& model, const Decomposed& decomposed,
+                                         const demo::ModelPictures& drawn) {
+  std::vector<demo::Picture> pictures;
+  const auto add = [&](const partwise::Image& image, std::string caption, std::string_view shown) {
+    pictures.push_back(demo::make_picture(image, std::move(caption), fmt::format("{}: {}", model.name, shown)));
+  };
+  add(drawn.input, "Input", "the mesh as it came");
+  add(drawn.parts, fmt::format("{} parts", decomposed.parts.parts()), "faces in the colours of their parts");
+  add(drawn.hulls, "Their hulls, drawn apart", "the convex hull of each part");
+  return pictures;
+}
+
+demo::PileStory tell_pile(const demo::PileSettings& settings, const demo::Pile& pile) {
+  demo::PileStory story{settings.bodies, pile.hulls, settings.seconds, pile.seconds, pile.deepest, {}, {}, {}};
+  const demo::PilePictures drawn = demo::draw_pile(pile, settings);
+  for (std::size_t i = 0; i < drawn.falling.size(); ++i) {
+    const std::string when = fmt::format("after {:.1f} s", settings.frames[i]);
+    story.falling.push_back(demo::make_picture(drawn.falling[i], when, "Bodies falling, " + when));
+  }
+  story.heap = demo::make_picture(
+      drawn.heap,
+      fmt::format("{} decomposed models at rest, simulated as {} convex hulls", settings.bodies, pile.hulls),
+      "A heap of horses, chairs, cups and other models");
+  story.heap_hulls = demo::make_picture(drawn.heap_hulls, "The same heap as the physics engine sees it",
+                                        "The same heap drawn as coloured convex hulls");
+  return story;
+}
+
+// A column a model: input, parts, hulls.
+void write_hero(const std::filesystem::path& path, const std::vector<demo::ModelPictures>& models) {
+  std::vector<partwise::Image> pictures;
+  for (const auto row : {&demo::ModelPictures::input, &demo::ModelPictures::parts, &demo::ModelPictures::hulls}) {
+    for (const demo::ModelPictures& model : models) pictures.push_back(model.*row);
+  }
+  partwise::write_png(path, demo::tile(pictures, static_cast<int>(models.size())));
+}
+
+void run(const std::filesystem::path& folder) {
+  const Clock::time_point start = Clock::now();
+  std::filesystem::create_directories(folder);
+  demo::Story story;
+  story.tolerance = 0.1;
+  story.threads = tbb::info::default_concurrency();
+  const std::span<const demo::Model> models = demo::models();
+  std::vector<Decomposed> decomposed;
+  for (const demo::Model& model : models) {
+    show(fmt::format("decomposing: {} ({} of {})", model.name, decomposed.size() + 1, models.size()));
+    decomposed.push_back(decompose_model(model, story.tolerance, story.models.emplace_back()));
+  }
+  // The simulation uses one core, so the models' pictures are drawn beside it.
+  std::vector<demo::PileKind> kinds;
+  for (const Decomposed& model : decomposed) kinds.push_back({&model.mesh, &model.parts});
+  const demo::PileSettings settings;
+  std::future<demo::Pile> pile = std::async(std::launch::async, [&] { return demo::simulate_pile(kinds, settings); });
+  std::vector<demo::ModelPictures> hero;
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    show(fmt::format("drawing: {} ({} of {})", models[i].name, i + 1, models.size()));
+    demo::ModelPictures drawn = demo::draw_model(decomposed[i].mesh, decomposed[i].parts, models[i].azimuth);
+    story.models[i].pictures = tell_pictures(models[i], decomposed[i], drawn);
+    if (models[i].in_hero) hero.push_back(std::move(drawn));
+  }
+  show("simulating and drawing the heap");
+  story.pile = tell_pile(settings, pile.get());
+  story.seconds = seconds_since(start);
+  write_hero(folder / "hero.png", hero);
+  partwise::write_file(folder / "index.html", demo::make_page(story));
+  show("");
+  fmt::print("{} models and a heap of {} in {:.1f} s: {}\n", models.size(), settings.bodies, story.seconds,
+             (folder / "index.html").string());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    fmt::print(stderr, "usage: partwise_demo OUT_DIR\n");
+    return 2;
+  }
+  try {
+    run(argv[1]);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "partwise_demo: {}\n", error.what());
+    return 1;
+  }
+}

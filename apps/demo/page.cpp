@@ -1,0 +1,191 @@
+#include "page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "page_style.h"
+#include "partwise/imaging/png.h"
+
+namespace demo {
+namespace {
+
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    unsigned group = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      group = group << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    }
+    for (std::size_t k = 0; k < 4; ++k) text += k <= count ? digits[group >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
+}
+
+std::string figure(const Picture& picture, std::string_view loading) {
+  return fmt::format(
+      "<figure><img src=\"{}\" alt=\"{}\" width=\"{}\" height=\"{}\" "
+      "loading=\"{}\"><figcaption>{}</figcaption></figure>\n",
+      picture.data, picture.description, picture.width, picture.height, loading, picture.caption);
+}
+
+std::string figures(const std::vector<Picture>& pictures, std::string_view css_class) {
+  std::string html = fmt::format("<div class=\"{}\">\n", css_class);
+  for (const Picture& picture : pictures) html += figure(picture, "eager");
+  return html + "</div>\n";
+}
+
+std::string fact(std::string_view name, std::string_view value, std::string_view unit = "") {
+  return fmt::format("<div><dt>{}</dt><dd>{}{}</dd></div>\n", name, value,
+                     unit.empty() ? "" : fmt::format(" <small>{}</small>", unit));
+}
+
+std::string thousands(int number) {
+  std::string text = std::to_string(number);
+  for (auto at = static_cast<int>(text.size()) - 3; at > 0; at -= 3)
+    text.insert(static_cast<std::size_t>(at), "&#8239;");
+  return text;
+}
+
+struct Totals {
+  int parts = 0, closed = 0;
+  double ratio = 0, concavity = 0, seconds = 0;
+};
+
+Totals totals(const Story& story) {
+  Totals sum;
+  for (const ModelStory& model : story.models) {
+    sum.parts += model.parts;
+    sum.concavity = std::max(sum.concavity, model.concavity);
+    sum.seconds += model.seconds;
+    if (!std::isfinite(model.volume_ratio)) continue;
+    ++sum.closed;
+    sum.ratio += model.volume_ratio;
+  }
+  sum.ratio /= std::max(1, sum.closed);
+  return sum;
+}
+
+std::string opening(const Story& story) {
+  const Totals sum = totals(story);
+  const auto count = static_cast<double>(story.models.size());
+  std::string html = R"(<header>
+<p class="name">Partwise</p>
+<h1>Shapes into nearly convex parts</h1>
+<p class="lead">Physics engines, planners and robots want convex pieces; people model horses, chairs and coffee cups.
+Partwise finds the few parts whose convex hulls stand in for the shape, within one tolerance that you choose,
+and certifies that they do.</p>
+</header>
+)";
+  html += "<div class=\"hero\">\n" + figure(story.pile.heap, "eager") + "</div>\n<dl class=\"facts large\">\n";
+  html += fact("parts a model, mean", fmt::format("{:.1f}", sum.parts / count));
+  html += fact("hull volume to solid volume, mean of the closed", fmt::format("{:.2f}", sum.ratio));
+  html += fact("largest concavity of any part", fmt::format("{:.3f}", sum.concavity), "R");
+  html += fact("to decompose a model, mean", fmt::format("{:.2f}", sum.seconds / count), "s");
+  return html + "</dl>\n";
+}
+
+std::string model_article(const ModelStory& model, double tolerance) {
+  std::string html = fmt::format("<article>\n<h3>{}</h3>\n<p class=\"meta\">{} faces, {}</p>\n", model.model.name,
+                                 thousands(model.faces), model.watertight ? "closed" : "open");
+  html += figures(model.pictures, "row") + "<dl class=\"facts\">\n";
+  html += fact("parts", fmt::format("{}", model.parts));
+  html += fact("concavity", fmt::format("{:.3f}", model.concavity), fmt::format("of {:.2f} R", tolerance));
+  html += std::isfinite(model.volume_ratio) ? fact("volume ratio", fmt::format("{:.2f}", model.volume_ratio))
+                                            : fact("volume ratio", "open", "has no volume");
+  html += fact("time", fmt::format("{:.2f}", model.seconds), "s");
+  html += fact("by valleys instead", fmt::format("{}", model.valley_parts),
+               fmt::format("parts, {:.2f} s", model.valley_seconds));
+  return html + "</dl>\n</article>\n";
+}
+
+std::string models_section(const Story& story) {
+  std::string html = fmt::format(
+      R"(<section>
+<h2>One tolerance for all of them</h2>
+<p>R is the radius of a model's bounding sphere. At tolerance {:.2f} R no point of any part's hull lies outside the solid by
+more than that; for an open mesh the distance is to its surface. Every face belongs to one part, every part is connected, and
+each hull encloses its part.</p>
+)",
+      story.tolerance);
+  for (const ModelStory& model : story.models) html += model_article(model, story.tolerance);
+  return html + "</section>\n";
+}
+
+std::string pile_section(const PileStory& pile) {
+  std::string html = fmt::format(
+      R"(<section>
+<h2>Ready to simulate</h2>
+<p>{} copies, {} convex hulls in all, fall onto a floor in Bullet. Each body is a compound of its model's hulls with their mass
+and inertia. {:.0f} seconds of simulation took {:.1f} seconds of one core, and at the end no hull reached more than
+{:.3f} R below the floor.</p>
+)",
+      pile.bodies, thousands(pile.hulls), pile.simulated, pile.seconds, pile.deepest);
+  html += figures(pile.falling, "row");
+  return html + "<div class=\"wide\">\n" + figure(pile.heap_hulls, "eager") + "</div>\n</section>\n";
+}
+
+std::string use_section() {
+  return R"(<section>
+<h2>Use it</h2>
+<div class="code">
+<pre><code>partwise decompose horse.ply --tolerance 0.1 \
+    --hulls hulls.obj --urdf horse.urdf</code></pre>
+<pre><code>#include "partwise/geometry/mesh_io.h"
+#include "partwise/parts/solid/decompose.h"
+
+const auto mesh = partwise::read_mesh("horse.ply");
+const auto parts = partwise::decompose(mesh);
+for (const auto&amp; hull : parts.hulls) add_to_world(hull);</code></pre>
+</div>
+</section>
+)";
+}
+
+std::string closing(const Story& story) {
+  std::string html =
+      "<footer>\n<p>The models, all from the Sweet Home 3D furniture collections, stripped to their geometry: ";
+  for (const ModelStory& model : story.models) {
+    html += fmt::format("{}{} by {} ({})", &model == story.models.data() ? "" : ", ", model.model.name,
+                        model.model.author, model.model.licence);
+  }
+  html += fmt::format(
+      ". Licences: <a href=\"https://creativecommons.org/publicdomain/zero/1.0/\">CC0 1.0</a>, "
+      "<a href=\"https://creativecommons.org/licenses/by/3.0/\">CC BY 3.0</a>.</p>\n"
+      "<p>Everything on this page was computed and drawn by one run of <code>partwise_demo</code>: {:.0f} seconds with "
+      "{} "
+      "threads.</p>\n</footer>\n",
+      story.seconds, story.threads);
+  return html;
+}
+
+}  // namespace
+
+Picture make_picture(const partwise::Image& image, std::string caption, std::string description) {
+  return {"data:image/png;base64," + base64(partwise::encode_png(image)), std::move(caption), std::move(description),
+          image.width, image.height};
+}
+
+std::string make_page(const Story& story) {
+  std::string html = R"(<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<title>Partwise: shapes into nearly convex parts</title>
+<link rel="icon" href="data:,">
+<style>
+)";
+  html += page_style;
+  html += "</style>\n</head>\n<body>\n<main>\n";
+  html += opening(story) + models_section(story) + pile_section(story.pile) + use_section();
+  return html + "</main>\n" + closing(story) + "</body>\n</html>\n";
+}
+
+}  // namespace demo

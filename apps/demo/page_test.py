@@ -1,0 +1,130 @@
+"""Opens the demo's page in headless Chromium through WebDriver (https://www.w3.org/TR/webdriver2/) and looks at it as a
+reader would: at 390 and at 1440 pixels, in light and in dark.
+
+usage: page_test.py CHROMEDRIVER CHROMIUM PAGE
+"""
+
+import json
+import pathlib
+import subprocess
+import sys
+import time
+import unittest
+import urllib.error
+import urllib.request
+
+driver_path, chromium_path, page_path = (pathlib.Path(argument) for argument in sys.argv[1:4])
+
+# What the page says about itself once it is laid out.
+INSPECT = """
+const wide = document.documentElement.scrollWidth - document.documentElement.clientWidth;
+const images = [...document.images];
+const visible = element => { const box = element.getBoundingClientRect(); return box.width > 40 && box.height > 40; };
+const inside = element => element.closest('pre') !== null;
+return {
+  width: innerWidth,
+  overflow: wide,
+  outside: [...document.querySelectorAll('body *')].filter(element => !inside(element) &&
+      element.getBoundingClientRect().right > innerWidth + 0.5).map(element => element.tagName + '.' + element.className),
+  images: images.length,
+  missing: images.filter(image => !image.complete || image.naturalWidth === 0 || !visible(image)).map(image => image.alt),
+  unnamed: images.filter(image => !image.alt).length,
+  foreign: images.filter(image => !image.src.startsWith('data:')).length + document.querySelectorAll('script, link[href^=http]').length,
+  models: document.querySelectorAll('article').length,
+  facts: [...document.querySelectorAll('dd')].map(element => element.textContent),
+  title: document.title,
+  paper: getComputedStyle(document.documentElement).backgroundColor,
+  ink: getComputedStyle(document.documentElement).color,
+};
+"""
+
+
+class Browser:
+    """One session of chromedriver on a port that the system chose."""
+
+    def __init__(self):
+        self.driver = subprocess.Popen([driver_path, "--port=0"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        self.base = None
+        for line in self.driver.stdout:
+            if "started successfully on port" in line:
+                port = int(line.split()[-1].rstrip("."))
+                self.base = f"http://127.0.0.1:{port}"
+                break
+        options = {
+            "binary": str(chromium_path),
+            "args": ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"],
+        }
+        always = {"browserName": "chrome", "goog:chromeOptions": options, "goog:loggingPrefs": {"browser": "ALL"}}
+        session = self.call("POST", "/session", {"capabilities": {"alwaysMatch": always}})
+        self.base += "/session/" + session["sessionId"]
+
+    def call(self, method, path, body=None):
+        data = None if body is None else json.dumps(body).encode()
+        request = urllib.request.Request(self.base + path, data, {"Content-Type": "application/json"}, method=method)
+        try:
+            with urllib.request.urlopen(request, timeout=60) as response:
+                return json.load(response)["value"]
+        except urllib.error.HTTPError as error:
+            raise RuntimeError(error.read().decode()) from error
+
+    def chromium(self, command, **parameters):
+        return self.call("POST", "/goog/cdp/execute", {"cmd": command, "params": parameters})
+
+    def look(self, width, scheme):
+        self.chromium("Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=1, mobile=width < 600)
+        self.chromium("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
+        self.call("POST", "/url", {"url": page_path.resolve().as_uri()})
+        deadline = time.monotonic() + 30
+        while True:
+            seen = self.call("POST", "/execute/sync", {"script": INSPECT, "args": []})
+            if not seen["missing"] or time.monotonic() > deadline:
+                return seen
+            time.sleep(0.2)
+
+    def messages(self):
+        return [entry["message"] for entry in self.call("POST", "/se/log", {"type": "browser"})]
+
+    def close(self):
+        try:
+            if "/session/" in (self.base or ""):
+                self.call("DELETE", "")
+        finally:
+            self.driver.terminate()
+            self.driver.wait(timeout=20)
+            self.driver.stdout.close()
+
+
+def brightness(colour):
+    return sum(float(value) for value in colour.partition("(")[2].rstrip(")").split(",")[:3]) / 3
+
+
+class Page(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.browser = Browser()
+        cls.addClassCleanup(cls.browser.close)
+
+    def test_both_widths_and_both_schemes(self):
+        for width in (390, 1440):
+            for scheme in ("light", "dark"):
+                with self.subTest(width=width, scheme=scheme):
+                    seen = self.browser.look(width, scheme)
+                    self.assertEqual(seen["width"], width)
+                    self.assertEqual(seen["overflow"], 0, seen["outside"])
+                    self.assertEqual(seen["outside"], [])
+                    self.assertEqual(seen["missing"], [])
+                    self.assertEqual(seen["unnamed"], 0)
+                    self.assertEqual(seen["foreign"], 0)
+                    self.assertGreaterEqual(seen["models"], 8)
+                    self.assertGreaterEqual(seen["images"], 3 * seen["models"] + 4)
+                    self.assertNotIn("nan", " ".join(seen["facts"]).lower())
+                    dark = brightness(seen["paper"]) < brightness(seen["ink"])
+                    self.assertEqual(dark, scheme == "dark")
+                    self.assertEqual(self.browser.messages(), [])
+
+    def test_one_file_of_bearable_size(self):
+        self.assertLess(page_path.stat().st_size, 8 * 1024 * 1024)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

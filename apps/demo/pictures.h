@@ -1,0 +1,25 @@
+// The pictures of one model: as it came, its parts, and their hulls drawn apart.
+#pragma once
+
+#include <span>
+
+#include "partwise/appearance/preview.h"
+#include "partwise/parts/solid/decompose.h"
+
+namespace demo {
+
+struct ModelPictures {
+  partwise::Image input, parts, hulls;
+};
+
+// `azimuth`: the viewer's, in degrees.
+ModelPictures draw_model(const partwise::Mesh& mesh, const partwise::Decomposition& parts, double azimuth);
+
+// The hulls of a decomposition as preview meshes in the colours of the parts; each is moved away from their common
+// centre by `apart` times its distance.
+std::vector<partwise::PreviewMesh> hull_meshes(const partwise::Decomposition& parts, double apart);
+
+// Pictures of equal size side by side, `columns` in a row, on clear ground.
+partwise::Image tile(std::span<const partwise::Image> pictures, int columns);
+
+}  // namespace demo

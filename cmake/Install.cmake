@@ -1,0 +1,12 @@
+# What an installed copy needs beside libraries and headers: the shipped files and PartwiseConfig.cmake, which
+# find_package(Partwise COMPONENTS room...) reads. Included after all rooms are known.
+include(CMakePackageConfigHelpers)
+get_property(PARTWISE_ROOMS GLOBAL PROPERTY PARTWISE_ROOMS)
+get_property(PARTWISE_ROOM_FACTS GLOBAL PROPERTY PARTWISE_ROOM_FACTS)
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/PartwiseConfig.cmake.in ${PROJECT_BINARY_DIR}/PartwiseConfig.cmake
+                              INSTALL_DESTINATION ${PARTWISE_INSTALL_CMAKE} NO_SET_AND_CHECK_MACRO)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/PartwiseConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/PartwiseConfig.cmake ${PROJECT_BINARY_DIR}/PartwiseConfigVersion.cmake
+        DESTINATION ${PARTWISE_INSTALL_CMAKE})
+install(DIRECTORY data DESTINATION ${PARTWISE_INSTALL_SHARE} PATTERN corpus EXCLUDE)  # the corpus is for tests only
+install(FILES LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -1,0 +1,130 @@
+#include "partwise/imaging/png.h"
+
+#include <png.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <csetjmp>
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+#include "partwise/base/atomic_file.h"
+#include "partwise/base/error.h"
+
+namespace partwise {
+namespace {
+
+bool has_alpha(int channels) { return channels == 2 || channels == 4; }
+
+// Whether value i of a row is a colour (which has a transfer curve) and not alpha (which has none).
+bool is_colour(std::size_t i, int channels) {
+  return !has_alpha(channels) || static_cast<int>(i % static_cast<std::size_t>(channels)) != channels - 1;
+}
+
+png_byte code(float value) { return static_cast<png_byte>(std::lround(255 * std::clamp(value, 0.0f, 1.0f))); }
+
+// libpng leaves a failing call by longjmp, which must not pass a frame that has something to destroy. So every use of
+// libpng is a body without such locals, run by guarded(): all that it fills is owned further out.
+void keep_message_and_jump(png_structp png, png_const_charp message) {
+  *static_cast<std::string*>(png_get_error_ptr(png)) = message;
+  png_longjmp(png, 1);
+}
+
+void ignore_warning(png_structp, png_const_charp) {}
+
+template <typename Body>
+bool guarded(png_structp png, const Body& body) {
+  if (setjmp(png_jmpbuf(png))) return false;
+  body();
+  return true;
+}
+
+struct Writer {
+  std::string error;
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &error, keep_message_and_jump, ignore_warning);
+  png_infop info = png_create_info_struct(png);
+  ~Writer() { png_destroy_write_struct(&png, &info); }
+};
+
+struct Reader {
+  std::string error;
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &error, keep_message_and_jump, ignore_warning);
+  png_infop info = png_create_info_struct(png);
+  ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
+};
+
+void append(png_structp png, png_bytep data, std::size_t size) {
+  static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(data), size);
+}
+
+}  // namespace
+
+std::string encode_png(const Image& image) {
+  constexpr std::array<int, 4> colour_types{PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
+                                            PNG_COLOR_TYPE_RGB_ALPHA};
+  PARTWISE_CHECK(image.channels, >=, 1);
+  PARTWISE_CHECK(image.channels, <=, 4);
+  const int colour_type = colour_types[static_cast<std::size_t>(image.channels - 1)];
+  const std::size_t row_size = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels);
+  std::vector<png_byte> codes(row_size * static_cast<std::size_t>(image.height));
+  for (std::size_t i = 0; i < codes.size(); ++i) {
+    codes[i] = code(is_colour(i, image.channels) ? srgb_from_linear(image.values[i]) : image.values[i]);
+  }
+
+  std::string bytes;
+  Writer writer;
+  const bool written = guarded(writer.png, [&] {
+    png_set_write_fn(writer.png, &bytes, append, nullptr);
+    png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height),
+                 8, colour_type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_sRGB(writer.png, writer.info, PNG_sRGB_INTENT_PERCEPTUAL);
+    png_write_info(writer.png, writer.info);
+    for (std::size_t row = 0; row < codes.size(); row += row_size) png_write_row(writer.png, codes.data() + row);
+    png_write_end(writer.png, writer.info);
+  });
+  PARTWISE_CHECK(written ? "" : writer.error, ==, std::string());
+  return bytes;
+}
+
+void write_png(const std::filesystem::path& path, const Image& image) { write_file(path, encode_png(image)); }
+
+Image read_png(const std::filesystem::path& path) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
+  if (!file) throw InputError(path.string(), "cannot be read", "name a file that exists");
+  Reader reader;
+  Image image;
+  std::vector<png_byte> bytes;  // 16 bits a value, big endian
+  std::vector<png_bytep> rows;
+  bool read = guarded(reader.png, [&] {
+    png_init_io(reader.png, file.get());
+    png_read_info(reader.png, reader.info);
+    png_set_expand_16(reader.png);  // palettes, few bits and colour keys become plain channels as well
+    png_set_interlace_handling(reader.png);
+    png_read_update_info(reader.png, reader.info);
+  });
+  if (read) {
+    image = Image(static_cast<int>(png_get_image_width(reader.png, reader.info)),
+                  static_cast<int>(png_get_image_height(reader.png, reader.info)),
+                  png_get_channels(reader.png, reader.info));
+    const std::size_t row_size = png_get_rowbytes(reader.png, reader.info);
+    bytes.resize(row_size * static_cast<std::size_t>(image.height));
+    for (std::size_t row = 0; row < bytes.size(); row += row_size) rows.push_back(bytes.data() + row);
+    read = guarded(reader.png, [&] {
+      png_read_image(reader.png, rows.data());
+      png_read_end(reader.png, nullptr);
+    });
+  }
+  if (!read) {
+    throw InputError(path.string(), fmt::format("is not a whole PNG file ({})", reader.error),
+                     "give a file that an image viewer opens");
+  }
+  for (std::size_t i = 0; i < image.values.size(); ++i) {
+    const float value = static_cast<float>(bytes[2 * i] * 256 + bytes[2 * i + 1]) / 65535;
+    image.values[i] = is_colour(i, image.channels) ? linear_from_srgb(value) : value;
+  }
+  return image;
+}
+
+}  // namespace partwise
