@@ -3,10 +3,10 @@
 //
 //   hacd_peer MESH --hulls F.obj [--tolerance T] [--faces N]
 //
-// As in the dissertation's comparison the mesh is first simplified with quadric errors, to N faces (HACD's time grows
-// faster than their number squared), and then clustered with Bullet's weights until no cluster may grow within the
-// tolerance, a share of the bounding-sphere radius. Prints one JSON object on one line; seconds are CPU time,
-// simplification included. The exit status is 0, 1 when it cannot be done, or 2 for wrong usage.
+// As in the dissertation's comparison the mesh is first simplified with quadric errors, to N faces, and then clustered
+// with Bullet's weights until no cluster may grow within the tolerance, a share of the bounding-sphere radius. Prints
+// one JSON object on one line; seconds are CPU time, simplification included. Exits 0, 1 when it cannot be done, 2 for
+// wrong usage.
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Count_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>

@@ -41,21 +41,25 @@ def rotations(settings, paths, count, jobs):
 
 def determinism(settings, paths, jobs):
     """Bytes of labels, hulls and report (less its times) for one thread, two, and two again."""
-    def bytes_of(path, threads):
-        with tempfile.TemporaryDirectory() as folder:
-            files = Files(Path(folder))
-            run = run_program(settings, path, files, threads)
-            if run.trouble:
-                return run.trouble
-            report = json.loads(files.report.read_text())
-            report.pop("seconds", None)
-            return files.labels.read_bytes(), files.hulls.read_bytes(), json.dumps(report, sort_keys=True)
+    def bytes_of(path, threads, files):
+        run = run_program(settings, path, files, threads)
+        if run.trouble:
+            return run.trouble
+        report = json.loads(files.report.read_text())
+        report.pop("seconds", None)
+        found = {"labels": files.labels.read_bytes(), "hulls": files.hulls.read_bytes(), "report": report}
+        for file in (files.labels, files.hulls, files.report):
+            file.unlink()
+        return found
 
     def one(path):
-        first, *others = (bytes_of(path, threads) for threads in (1, 2, 2))
-        if isinstance(first, str):
-            return first
-        return "same" if all(other == first for other in others) else "DIFFERENT"
+        with tempfile.TemporaryDirectory() as folder:  # the same names each time: a report may hold them
+            runs = [bytes_of(path, threads, Files(Path(folder))) for threads in (1, 2, 2)]
+        for trouble in runs:
+            if isinstance(trouble, str):
+                return trouble
+        different = [name for name in runs[0] if any(run[name] != runs[0][name] for run in runs)]
+        return "different: " + ", ".join(different) if different else "same"
 
     verdicts = list(jobs(one, paths))
     for path, verdict in zip(paths, verdicts):

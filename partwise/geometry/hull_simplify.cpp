@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <queue>
 #include <ranges>
@@ -21,9 +22,13 @@ namespace partwise {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double far_away = 4;  // New vertices lie within so many hull sizes of the hull.
+constexpr double on_line = 1e-9;    // What is so near to a line or a point is taken to lie on it.
+constexpr int polished_early = 24;  // From so many vertices on all are moved to their best places after each collapse.
+// New vertices lie within so many standard deviations of the old ones. Near ones first: greed for volume alone grows
+// spikes, which later collapses have to pay for; far ones are there to get past a dead end.
+constexpr double reaches[] = {2, 8};
 
-// The surface that is simplified. `body` is the given hull, scaled to unit size about the origin; the surface is a
+// The surface that is simplified. `body` is the given hull, about the origin and of unit size; the surface is a
 // sphere whose every face plane has the body on its inner side, so that it is star-shaped about each point of the body
 // and its convex hull encloses the body.
 class Simplifier {
@@ -57,8 +62,8 @@ class Simplifier {
   void moved(int vertex);
   // Appends to link_ the half-edges opposite `vertex` in its faces, less the faces that have `other` as a corner.
   void gather_link(int vertex, int other);
-  // Where the apex of a fan over link_ adds the least volume and leaves the body inside of all face planes, relative to
-  // `origin`. Returns six times the volume of the fan over `origin`; infinity when there is no such apex.
+  // Where the apex of a fan over link_ adds the least volume and leaves the body inside of all face planes. Returns six
+  // times the volume that the fan encloses with `origin`; infinity when there is no such apex.
   double best_apex(const Eigen::Vector3d& origin, Eigen::Vector3d& apex);
   // The volume that the collapse of h adds, and where its vertex goes.
   double collapse_cost(int h, Eigen::Vector3d& apex);
@@ -73,6 +78,7 @@ class Simplifier {
   std::vector<HalfSpace> constraints_;
   std::priority_queue<Candidate> candidates_;
   int step_ = 0;
+  double reach_ = reaches[0];
   std::vector<int> computed_;  // of each half-edge the step of its latest candidate
   std::vector<int> changed_;   // of each vertex the last step that moved it or a neighbour
 };
@@ -100,8 +106,7 @@ Simplifier::Simplifier(const Mesh& body)
 // outside the plane is the last one, since the body is convex.
 Simplifier::Tangent Simplifier::tangent(int h, int contact) const {
   const Eigen::Vector3d a = position_.row(surface_.origin[h]), b = position_.row(surface_.target(h));
-  constexpr double on_line = 1e-9;
-  // An apex often falls on a neighbour; the edge between them is a point and bounds nothing.
+  // The edge between a vertex and a neighbour that it fell on bounds nothing.
   if ((b - a).norm() < on_line) return {{Eigen::Vector3d::Zero(), 0}, contact};
   const Eigen::Vector3d along = (b - a).normalized();
   const Eigen::Vector3d inwards = (along.dot(a) * along - a).normalized();  // to the origin, which is inside
@@ -114,13 +119,19 @@ Simplifier::Tangent Simplifier::tangent(int h, int contact) const {
     for (int v = 0; v < body_.rows(); ++v)
       if (polar(v).squaredNorm() > polar(contact).squaredNorm()) contact = v;
   Eigen::Vector2d direction = polar(contact);
+  // By angle from `inwards` in (-180, 180] degrees. Only within a half is the cross product a measure: in a flat part
+  // of the body the two tangents are opposite, and rounding must not turn one into the other.
+  const auto further = [&](const Eigen::Vector2d& q) {
+    if ((direction.y() >= 0) != (q.y() >= 0)) return q.y() >= 0;
+    return direction.x() * q.y() - direction.y() * q.x() > 1e-14;
+  };
   bool turned = true;
   for (Eigen::Index turns = 0; turned && turns < body_.rows(); ++turns) {
     turned = false;
     direction.normalize();
     for (int i = neighbour_start_[contact]; i < neighbour_start_[contact + 1]; ++i) {
       const Eigen::Vector2d q = polar(neighbours_[i]);
-      if (direction.x() * q.y() - direction.y() * q.x() <= 1e-14 || q.norm() < on_line) continue;
+      if (q.norm() < on_line || !further(q)) continue;
       contact = neighbours_[i];
       direction = q;
       turned = true;
@@ -164,10 +175,15 @@ double Simplifier::best_apex(const Eigen::Vector3d& origin, Eigen::Vector3d& ape
     const HalfSpace plane = shifted(tangent_[surface_.twin[h]].outside);
     constraints_.push_back({-plane.normal, -plane.offset});
   }
-  const Optimum optimum = minimise(cost, constraints_, far_away);
+  const Optimum optimum = minimise(cost, constraints_, reach_);
   if (optimum.status != Optimum::Status::optimal) return infinity;
-  apex = optimum.x;
-  return cost.dot(apex);
+  apex = origin + optimum.x;
+  // An apex often falls on a neighbour; there it shall be to the bit, lest a face without a direction be left between.
+  for (int h : link_) {
+    const Eigen::Vector3d neighbour = position_.row(surface_.origin[h]);
+    if ((neighbour - apex).norm() < on_line) apex = neighbour;
+  }
+  return cost.dot(apex - origin);
 }
 
 double Simplifier::collapse_cost(int h, Eigen::Vector3d& apex) {
@@ -183,7 +199,6 @@ double Simplifier::collapse_cost(int h, Eigen::Vector3d& apex) {
   }
   gather_link(u, v);
   const double after = best_apex(origin, apex);
-  apex += origin;
   return after - before;
 }
 
@@ -196,8 +211,10 @@ void Simplifier::consider(int h) {
 }
 
 void Simplifier::collapse_to(int vertices) {
-  for (bool progress = true; progress && surface_.vertex_count > vertices;) {
-    progress = false;
+  std::size_t tried = 0;  // reaches at which no edge was left to collapse
+  while (surface_.vertex_count > vertices && tried < std::size(reaches)) {
+    bool progress = false;
+    reach_ = reaches[tried];
     for (int h = 0; h < surface_.size(); ++h)
       if (surface_.alive[h] && h < surface_.twin[h]) consider(h);
     while (surface_.vertex_count > vertices && !candidates_.empty()) {
@@ -211,7 +228,7 @@ void Simplifier::collapse_to(int vertices) {
       }
       if (!surface_.collapsible(h)) continue;
       Eigen::Vector3d apex;
-      collapse_cost(h, apex);
+      PARTWISE_CHECK(collapse_cost(h, apex), ==, cost);  // Nothing that it depends on has changed.
       surface_.collapse(h);
       position_.row(vertex) = apex;
       progress = true;
@@ -220,9 +237,15 @@ void Simplifier::collapse_to(int vertices) {
       int g = surface_.out[vertex];
       do consider(g);
       while ((g = surface_.around(g)) != surface_.out[vertex]);
+      if (surface_.vertex_count <= polished_early) {
+        ++step_;
+        polish();
+      }
     }
     ++step_;
+    if (!progress) ++tried;
   }
+  reach_ = reaches[0];
 }
 
 double Simplifier::polish() {
@@ -236,7 +259,7 @@ double Simplifier::polish() {
     const double change = best_apex(origin, apex);
     if (!(change < 0)) continue;
     gained -= change / 6;
-    position_.row(v) = origin + apex;
+    position_.row(v) = apex;
     moved(v);
   }
   return gained;
@@ -249,16 +272,21 @@ Vertices Simplifier::vertices() const {
   return position_(left, Eigen::all);
 }
 
-// The tetrahedron of supporting planes whose normals are those of a regular one in the principal frame of the points.
+// The frame in which the points have the unit matrix for their second moments. Volumes keep their order under linear
+// maps and so does enclosure, but slivers become round and tolerances mean the same in all directions.
+Eigen::Matrix3d round_frame(const Vertices& points) {
+  const Eigen::Matrix3d moments = points.transpose() * points / static_cast<double>(points.rows());
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(moments);
+  const Eigen::Vector3d spread = principal.eigenvalues().cwiseMax(1e-24 * principal.eigenvalues()[2]).cwiseSqrt();
+  const Eigen::Matrix3d frame = principal.eigenvectors() * spread.asDiagonal();
+  return frame.determinant() < 0 ? -frame : frame;  // A mirror would turn the faces inside out.
+}
+
+// The tetrahedron of supporting planes with the normals of a regular one.
 Vertices enclosing_tetrahedron(const Vertices& points) {
-  const Eigen::Matrix3d covariance = points.transpose() * points / static_cast<double>(points.rows());
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(covariance);
-  const Eigen::Matrix3d frame = principal.eigenvectors() * principal.eigenvalues().cwiseSqrt().asDiagonal();
-  const Vertices white = points * frame.inverse().transpose();
-  // In the white frame the corners are c_i = sum over the other three planes; with normals n_i = -e_i, (1, 1, 1).
   Eigen::Matrix<double, 4, 3> normals;
   normals << 1, 1, 1, 1, -1, -1, -1, 1, -1, -1, -1, 1;
-  const Eigen::Vector4d reach = (white * normals.transpose()).colwise().maxCoeff();
+  const Eigen::Vector4d reach = (points * normals.transpose()).colwise().maxCoeff().transpose();
   Vertices corners(4, 3);
   for (int i = 0; i < 4; ++i) {
     Eigen::Matrix3d planes;
@@ -268,7 +296,7 @@ Vertices enclosing_tetrahedron(const Vertices& points) {
       planes.row(row) = normals.row(j);
       offsets[row++] = reach[j];
     }
-    corners.row(i) = frame * planes.inverse() * offsets;
+    corners.row(i) = (planes.inverse() * offsets).transpose();
   }
   return corners;
 }
@@ -303,15 +331,17 @@ Mesh simplify_hull(const Mesh& hull, int max_vertices) {
   if (hull.vertices.rows() <= max_vertices) return hull;
   const Point centre = hull.vertices.colwise().mean();
   const Vertices centred = hull.vertices.rowwise() - centre;
-  const double size = centred.rowwise().norm().maxCoeff();
+  const Eigen::Matrix3d frame = round_frame(centred);
+  const Vertices round = centred * frame.inverse().transpose();
 
-  Simplifier simplifier({centred / size, hull.faces});
+  Simplifier simplifier({round, hull.faces});
   simplifier.collapse_to(max_vertices);
-  if (simplifier.vertex_count() > max_vertices)
-    return enclosing_hull(enclosing_tetrahedron(centred), hull.vertices, centre);
-  for (int round = 0; round < 20 && simplifier.polish() > 1e-4; ++round) {
+  for (int sweep = 0; sweep < 20 && simplifier.polish() > 1e-4; ++sweep) {
   }
-  return enclosing_hull(simplifier.vertices() * size, hull.vertices, centre);
+  const Mesh tetrahedron = enclosing_hull(enclosing_tetrahedron(round) * frame.transpose(), hull.vertices, centre);
+  if (simplifier.vertex_count() > max_vertices) return tetrahedron;
+  Mesh simple = enclosing_hull(simplifier.vertices() * frame.transpose(), hull.vertices, centre);
+  return signed_volume(tetrahedron) < signed_volume(simple) ? tetrahedron : simple;
 }
 
 }  // namespace partwise

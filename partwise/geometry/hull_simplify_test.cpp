@@ -46,11 +46,11 @@ TEST_P(SimplifyHull, EnclosesWithLittleMoreVolume) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Clouds, SimplifyHull,
-                         testing::Values(Case{Cloud::sphere, 500, {1.06, 1.12, 1.28, 1.8, 6}},
-                                         Case{Cloud::ball, 4000, {1.06, 1.12, 1.28, 1.8, 6}},
-                                         Case{Cloud::box, 4000, {1.01, 1.02, 1.04, 1.2, 6}},
-                                         Case{Cloud::elongated, 500, {1.06, 1.12, 1.28, 1.8, 7}},
-                                         Case{Cloud::slab, 4000, {1.01, 1.02, 1.04, 1.2, 8}}));
+                         testing::Values(Case{Cloud::sphere, 500, {1.06, 1.12, 1.28, 1.85, 4}},
+                                         Case{Cloud::ball, 4000, {1.06, 1.12, 1.28, 1.85, 4}},
+                                         Case{Cloud::box, 4000, {1.01, 1.02, 1.1, 1.3, 8}},
+                                         Case{Cloud::elongated, 500, {1.06, 1.12, 1.28, 1.85, 4}},
+                                         Case{Cloud::slab, 4000, {1.01, 1.02, 1.1, 1.3, 8}}));
 
 TEST(SimplifyHull, PlatonicSolidsDownToATetrahedron) {
   Vertices octahedron(6, 3);

@@ -54,8 +54,8 @@ TEST(LinearProgramme, AgreesWithAllCorners) {
       ++infeasible;
       EXPECT_EQ(expected, infinity) << trial;
     } else {
-      ++unbounded;  // In a cube twice as large the cost is lower still, unless the large one shows there is no point.
-      EXPECT_LT(brute_force(cost, half_spaces, 2 * bound), expected) << trial;
+      ++unbounded;  // In a larger cube the cost is lower still.
+      EXPECT_LT(brute_force(cost, half_spaces, 1000 * bound), expected) << trial;
     }
   }
   EXPECT_GT(optimal, 500);

@@ -22,7 +22,11 @@ struct Moments {
 Moments moments(const Mesh& mesh) {
   Moments result;
   if (mesh.faces.rows() == 0) return result;
-  const Point low = mesh.vertices.colwise().minCoeff(), high = mesh.vertices.colwise().maxCoeff();
+  Point low = mesh.vertices.row(mesh.faces(0, 0)), high = low;  // Vertices that no face uses may lie anywhere.
+  for (const int v : mesh.faces.reshaped()) {
+    low = low.cwiseMin(mesh.vertices.row(v));
+    high = high.cwiseMax(mesh.vertices.row(v));
+  }
   const Point origin = (low + high) / 2;
   double six_volumes = 0;
   Point first = Point::Zero();

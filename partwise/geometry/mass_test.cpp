@@ -67,6 +67,13 @@ TEST(Mass, InsideOutIsTheSame) {
   EXPECT_LT((p.inertia - box_inertia(1, 2, 3)).norm(), 1e-13);
 }
 
+TEST(Mass, UnusedVerticesDoNotCount) {
+  Mesh mesh = box(1, 2, 3);
+  mesh.vertices.conservativeResize(9, 3);
+  mesh.vertices.row(8) << 1e9, 1e9, -1e9;
+  EXPECT_DOUBLE_EQ(mass_properties(mesh).volume, 6);
+}
+
 TEST(Mass, BodiesTogether) {
   // A box of 4 x 2 x 3 from two of 1 and 3 along x, with a flat one in between that counts for nothing.
   std::vector<Mesh> boxes{box(1, 2, 3), box(3, 2, 3), box(4, 2, 0)};

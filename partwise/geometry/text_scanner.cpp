@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <limits>
 
 #include "partwise/base/error.h"
 
@@ -20,6 +20,14 @@ const char* after_continuation(const char* at, const char* end) {
 }
 
 char lower_case(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+// Of a number that no double can hold: whether it is nearer to zero than the smallest, not farther than the largest.
+// std::from_chars does not tell, and std::strtod depends on the locale.
+bool is_too_small(std::string_view number) {
+  const std::size_t exponent = number.find_first_of("eE");
+  if (exponent != std::string_view::npos) return number.substr(exponent + 1).starts_with('-');
+  return number.substr(number.find_first_not_of("+-")).starts_with("0") || number.find('.') <= 1;
+}
 
 }  // namespace
 
@@ -91,8 +99,8 @@ double TextScanner::coordinate(std::string_view what) {
   const char* last = text.data() + text.size();
   double value = 0;
   auto [stop, error] = std::from_chars(first, last, value);
-  if (error == std::errc::result_out_of_range) {  // Too small is zero or nearly so, too large is infinite.
-    value = std::strtod(std::string(text).c_str(), nullptr);
+  if (error == std::errc::result_out_of_range && stop == last) {
+    value = is_too_small(text) ? 0.0 : std::numeric_limits<double>::infinity();
   } else if (error != std::errc() || stop != last) {
     fail(fmt::format("{} is not a number where {} should be", shown(text), what), "correct the line");
   }

@@ -84,12 +84,12 @@ Mesh joined(const Mesh& a, const Mesh& b) {
 TEST(UnionVolume, BoxesOverlappingNestedDisjointTouching) {
   const Mesh a = box({0, 0, 0}, {1, 2, 3});
   const auto united = [&](const Mesh& b) { return union_volume(std::vector{a, b}); };
-  EXPECT_LT(relative_error(union_volume(std::vector{a}), 6), 5e-4);
-  EXPECT_LT(relative_error(united(box({0.5, 0.5, 0.5}, {1.5, 1.5, 4})), 6 + 3.5 - 1.25), 5e-4);
-  EXPECT_LT(relative_error(united(box({0.2, 0.3, 0.4}, {0.5, 0.6, 0.7})), 6), 5e-4);
-  EXPECT_LT(relative_error(united(box({3, 0, 0}, {4, 1, 1})), 7), 5e-4);
-  EXPECT_LT(relative_error(united(box({1, 0, 0}, {2, 2, 3})), 12), 5e-4);
-  EXPECT_LT(relative_error(united(a), 6), 5e-4);
+  EXPECT_LT(relative_error(union_volume(std::vector{a}), 6), 2e-4);
+  EXPECT_LT(relative_error(united(box({0.5, 0.5, 0.5}, {1.5, 1.5, 4})), 6 + 3.5 - 1.25), 2e-4);
+  EXPECT_LT(relative_error(united(box({0.2, 0.3, 0.4}, {0.5, 0.6, 0.7})), 6), 2e-4);
+  EXPECT_LT(relative_error(united(box({3, 0, 0}, {4, 1, 1})), 7), 2e-4);
+  EXPECT_LT(relative_error(united(box({1, 0, 0}, {2, 2, 3})), 12), 2e-4);
+  EXPECT_LT(relative_error(united(a), 6), 2e-4);
   EXPECT_EQ(union_volume({}), 0);
 }
 
@@ -97,7 +97,7 @@ TEST(UnionVolume, RotatedBoxes) {
   std::mt19937_64 random(1);
   for (int trial = 0; trial < 100; ++trial) {
     const Mesh one = oriented_box(random);
-    EXPECT_LT(relative_error(union_volume(std::vector{one}), signed_volume(one)), 1e-3);
+    EXPECT_LT(relative_error(union_volume(std::vector{one}), signed_volume(one)), 1e-4);
   }
 }
 
@@ -108,7 +108,7 @@ TEST(UnionVolume, ThreeRotatedBoxesByInclusionAndExclusion) {
     const double expected = signed_volume(m[0]) + signed_volume(m[1]) + signed_volume(m[2]) -
                             common_volume(std::vector{m[0], m[1]}) - common_volume(std::vector{m[0], m[2]}) -
                             common_volume(std::vector{m[1], m[2]}) + common_volume(m);
-    EXPECT_LT(relative_error(union_volume(m), expected), 1e-3) << trial;
+    EXPECT_LT(relative_error(union_volume(m), expected), 1e-4) << trial;
   }
 }
 
@@ -127,7 +127,7 @@ TEST(UnionVolume, CoverageOfABallByItsCore) {
   const Mesh solid = ball(60, 1), core = box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
   const Coverage found = coverage(solid, std::vector{core});
   EXPECT_LT(relative_error(found.solid_volume, signed_volume(solid)), 1e-4);
-  EXPECT_LT(relative_error(found.union_volume, 1), 1e-3);
+  EXPECT_LT(relative_error(found.union_volume, 1), 2e-4);
   EXPECT_NEAR(found.uncovered, found.solid_volume - found.union_volume, 1e-12);  // on the same lines
   const Coverage all = coverage(core, std::vector{convex_hull(solid.vertices, 1e-9).mesh});
   EXPECT_EQ(all.uncovered, 0);
@@ -137,19 +137,18 @@ TEST(UnionVolume, WindingNumbersOfCavitiesAndOverlaps) {
   const Mesh outer = box({0, 0, 0}, {3, 3, 3}), inner = box({1, 1, 1}, {2, 2, 2});
   Mesh cavity = inner;
   cavity.faces.col(0).swap(cavity.faces.col(1));
-  EXPECT_LT(relative_error(coverage(joined(outer, cavity), {}).solid_volume, 26), 5e-4);
-  EXPECT_LT(relative_error(coverage(joined(outer, inner), {}).solid_volume, 27), 5e-4);
-  EXPECT_NEAR(coverage(joined(outer, cavity), std::vector{inner}).uncovered, 26, 26 * 5e-4);
+  EXPECT_LT(relative_error(coverage(joined(outer, cavity), {}).solid_volume, 26), 2e-4);
+  EXPECT_LT(relative_error(coverage(joined(outer, inner), {}).solid_volume, 27), 2e-4);
+  EXPECT_NEAR(coverage(joined(outer, cavity), std::vector{inner}).uncovered, 26, 26 * 2e-4);
   EXPECT_EQ(coverage(joined(outer, cavity), std::vector{outer}).uncovered, 0);
 }
 
-// Were a line that passes through an edge or a vertex counted twice or not at all, a whole column would be lost. Points
-// on integers, and a number of lines that puts lines on them, make that as likely as can be; many small faces as well.
+// One line counted wrongly at an edge or a vertex of these 90,000 faces would cost about 1 / lines squared.
 TEST(UnionVolume, NoLineIsLostAtEdgesAndVertices) {
   for (int lines : {4, 16, 64, 256, 700}) {
     const Mesh fine = ball(150, 1);
     const double found = coverage(fine, {}, {.lines = lines}).solid_volume;
-    EXPECT_LT(relative_error(found, signed_volume(fine)), lines < 64 ? 0.1 : 1e-3) << lines;
+    EXPECT_LT(relative_error(found, signed_volume(fine)), 0.2 / (lines * lines)) << lines;
   }
 }
 
@@ -160,7 +159,7 @@ TEST(UnionVolume, EveryAxisAndScale) {
       high[axis] = 5;
       Mesh one = box({0, 0, 0}, high);
       one.vertices = (scale * (one.vertices.rowwise() + Point(100, 100, 100))).eval();
-      EXPECT_LT(relative_error(union_volume(std::vector{one}), 5 * std::pow(scale, 3)), 5e-4);
+      EXPECT_LT(relative_error(union_volume(std::vector{one}), 5 * std::pow(scale, 3)), 2e-4);
     }
 }
 
