@@ -1,4 +1,5 @@
-// A triangle mesh as the field's tools have it: n x 3 positions and m x 3 vertex indices, counter-clockwise from outside.
+// A triangle mesh as the field's tools have it: n x 3 positions and m x 3 vertex indices, counter-clockwise from
+// outside.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,7 +22,8 @@ struct Sphere {
   double radius = 0;
 };
 
-// The smallest sphere that encloses all vertices used by a face (Welzl 1991 on the few that matter: Gaertner 1999). A mesh without faces: radius 0.
+// The smallest sphere that encloses all vertices used by a face (Welzl 1991 on the few that matter: Gaertner 1999). A
+// mesh without faces: radius 0.
 Sphere bounding_sphere(const Mesh& mesh);
 
 // Signed volume by the divergence theorem, positive when faces are counter-clockwise from outside. For closed meshes.

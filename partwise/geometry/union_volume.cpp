@@ -1,7 +1,7 @@
 #include "partwise/geometry/union_volume.h"
 
-#include <Eigen/Geometry>
 #include <tbb/parallel_for.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>

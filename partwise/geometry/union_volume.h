@@ -3,9 +3,9 @@
 // By columns: a regular grid of lines parallel to the axis along which the bounding box is longest; on each line the
 // intervals inside the hulls (and inside the solid, by winding number) are united exactly, and the lengths summed. The
 // grid is turned about that axis by an angle whose tangent is the golden section, so that walls along the axes, which
-// would err alike in all rows, cross it as evenly as slanted ones. A line that passes through an edge or a vertex crosses
-// exactly one of the faces there. The error falls almost with the square of the spacing: with the default 256 x 256 lines
-// it is below 1e-4 of the volume for boxes in any position. Deterministic for any number of threads.
+// would err alike in all rows, cross it as evenly as slanted ones. A line that passes through an edge or a vertex
+// crosses exactly one of the faces there. The error falls almost with the square of the spacing: with the default 256 x
+// 256 lines it is below 1e-4 of the volume for boxes in any position. Deterministic for any number of threads.
 //
 // Hulls must be closed and all have their faces counter-clockwise from outside. Errors: InputError for lines < 1.
 #pragma once
