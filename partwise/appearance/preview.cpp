@@ -201,12 +201,15 @@ class Renderer {
     return sky / total + back + Vector::Constant(key_cosine_gain * facing * key / total);
   }
 
-  // How dark the ground's shadow looks. Its faint outskirts are left out, or they would end at the picture's frame.
-  float shadow_alpha(const Sample& ground, const Vector& light, float open_light) const {
+  // How dark the ground's shadow looks. Shadows end softly before the picture does: faint outskirts are left out, and
+  // what would cross the frame fades.
+  float shadow_alpha(int x, int y, const Sample& ground, const Vector& light, float open_light) const {
+    const int inward = std::min({x, y, width_ - 1 - x, height_ - 1 - y});
+    const float frame = std::min(1.0f, static_cast<float>(inward) / (0.07f * static_cast<float>(width_)));
     const float ratio = std::clamp(light.y() / open_light, 0.0f, 1.0f);
     const float away = (ground.position - rays_.centre()).norm() / rays_.size();
     const float fade = std::clamp((1.4f - away) / 0.8f, 0.0f, 1.0f);
-    return std::max(0.0f, 0.77f * fade * (1 - std::pow(ratio, 1 / 2.2f)) - 0.02f);
+    return std::max(0.0f, 0.77f * frame * fade * (1 - std::pow(ratio, 1 / 2.2f)) - 0.02f);
   }
 
   void resolve(int px, int py, float open_light, float* pixel) {
@@ -219,7 +222,7 @@ class Renderer {
         if (centre.seen == Seen::nothing) continue;
         const Vector light = filtered_light(x, y, centre);
         if (centre.seen == Seen::ground) {
-          alpha += shadow_alpha(centre, light, open_light);
+          alpha += shadow_alpha(x, y, centre, light, open_light);
         } else {
           colour += centre.colour.cwiseProduct(light);
           alpha += 1;
