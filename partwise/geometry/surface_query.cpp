@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "partwise/base/error.h"
+#include "partwise/geometry/topology.h"
 
 namespace partwise {
 namespace {
@@ -50,29 +50,6 @@ std::array<Eigen::Vector3f, kOpenDirections> directions() {
   return all;
 }
 
-bool closed(const Mesh& mesh) {
-  // Every directed edge is met by its opposite: the sum over faces of hashed oriented edges cancels.
-  std::vector<std::pair<std::uint64_t, int>> edges;
-  edges.reserve(static_cast<std::size_t>(3 * mesh.faces.rows()));
-  for (const auto& f : mesh.faces.rowwise()) {
-    for (int k = 0; k < 3; ++k) {
-      const int a = f[k], b = f[(k + 1) % 3];
-      if (a == b) continue;
-      const auto [low, high] = std::minmax(a, b);
-      edges.emplace_back(static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint32_t>(high), a < b ? 1 : -1);
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  for (std::size_t i = 0; i < edges.size();) {
-    int sum = 0;
-    std::size_t j = i;
-    for (; j < edges.size() && edges[j].first == edges[i].first; ++j) sum += edges[j].second;
-    if (sum != 0) return false;
-    i = j;
-  }
-  return true;
-}
-
 }  // namespace
 
 struct SurfaceQuery::Scene {
@@ -104,7 +81,7 @@ SurfaceQuery::SurfaceQuery(const Mesh& mesh) : scene_(std::make_unique<Scene>())
   if (keep.empty()) throw InputError("mesh", "no face has an area", "give a mesh with at least one proper triangle");
   s.faces = mesh.faces(keep, Eigen::all);
   s.face_number = keep;
-  s.is_closed = closed(mesh);
+  s.is_closed = is_watertight(mesh);
   const Sphere sphere = bounding_sphere(mesh);
   s.centre = sphere.centre;
   s.scale = sphere.radius;

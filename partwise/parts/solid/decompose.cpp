@@ -1,19 +1,217 @@
 #include "partwise/parts/solid/decompose.h"
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
 #include "partwise/base/error.h"
 #include "partwise/geometry/convex_hull.h"
+#include "partwise/geometry/subdivide.h"
+#include "partwise/geometry/topology.h"
+#include "partwise/geometry/union_volume.h"
+#include "partwise/parts/solid/convex_ridges.h"
+#include "partwise/parts/solid/hull_decomposition.h"
+#include "partwise/parts/solid/valley_decomposition.h"
 
 namespace partwise {
+namespace {
+
+constexpr double kSmallestTolerance = 1e-3;   // of R: the octree of distances would not end
+constexpr double kLargestThickness = 1e-3;    // of R: what flat hulls are given, or a tenth of the tolerance if less
+constexpr double kSmallestCube = 1.0 / 16;    // of the tolerance: side of the smallest cubes of the octree
+constexpr double kCertainty = 1 - 1e-4;       // of the tolerance: room for distances in single precision
+constexpr int kSamples = 6000;                // of the space in the convex hull
+constexpr double kCoarseEdge = 0.5;           // of the tolerance: longest edge of a mesh whose faces are cut inside
+constexpr int kCoarseFaces = 5000;            // meshes with more faces are not cut inside
+constexpr int kMostFacesCut = 200000;
+
+class Stopwatch {
+ public:
+  explicit Stopwatch(std::map<std::string, double>& seconds) : seconds_(seconds) {}
+  template <typename Work>
+  auto time(const char* stage, const Work& work) {
+    const auto start = std::chrono::steady_clock::now();
+    auto result = work();
+    seconds_[stage] += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return result;
+  }
+
+ private:
+  std::map<std::string, double>& seconds_;
+};
+
+void check(const Mesh& mesh, const DecompositionSettings& settings, double radius) {
+  if (!(radius > 0)) throw InputError("mesh", "no face of positive area", "give a mesh with at least one proper triangle");
+  if (!(settings.tolerance > 0) || !std::isfinite(settings.tolerance))
+    throw InputError("tolerance", "is not a positive number", "give one, 0.1 for coarse and 0.02 for fine parts");
+  const double relative = settings.absolute ? settings.tolerance / radius : settings.tolerance;
+  if (relative < kSmallestTolerance)
+    throw InputError("tolerance", fmt::format("{:g} of the bounding-sphere radius is too fine", relative),
+                     fmt::format("give at least {:g}", kSmallestTolerance));
+  if (settings.max_hulls < 0) throw InputError("max_hulls", "is negative", "give 0 for no limit");
+  if (settings.max_hull_vertices < 0 || (settings.max_hull_vertices > 0 && settings.max_hull_vertices < 4))
+    throw InputError("max_hull_vertices", "is below 4", "give 0 for no limit, or 4 and more");
+  static_cast<void>(mesh);
+}
+
+// The mesh centred and scaled to a bounding sphere of radius 1, faces turned one way, and what is measured on it.
+struct Scene {
+  Sphere sphere;
+  Mesh mesh;
+  bool closed;
+  SurfaceQuery surface;
+  SpaceSamples space;
+  OutsideDistance outside;
+
+  Scene(const Mesh& input, const Sphere& bounds, double tolerance, double thickness)
+      : sphere(bounds),
+        mesh(orient_consistently({(input.vertices.rowwise() - bounds.centre) / bounds.radius, input.faces})),
+        closed(is_watertight(mesh)),
+        surface(mesh),
+        space(sample_space(surface, closed, convex_hull(corners_of(mesh, all_faces()), thickness).mesh, kSamples)),
+        outside(surface, closed, {Point::Zero(), 1.0}, kSmallestCube * tolerance) {}
+
+  std::vector<int> all_faces() const {
+    std::vector<int> faces(static_cast<std::size_t>(mesh.faces.rows()));
+    std::iota(faces.begin(), faces.end(), 0);
+    return faces;
+  }
+};
+
+std::vector<HullPart> valley_parts(const Scene& scene, double tolerance, double thickness,
+                                   const DecompositionSettings& settings, const Progress& progress) {
+  std::vector<HullPart> parts;
+  for (auto& group : connected_groups(scene.mesh, scene.all_faces())) {
+    for (ValleyPart& part : valley_decomposition(scene.mesh, scene.surface, std::move(group), tolerance, progress))
+      parts.push_back(hull_part(scene.mesh, std::move(part.faces), thickness));
+  }
+  const AcceptMerge accept = [&](const HullPart& a, const HullPart& b, const Mesh&) {
+    std::vector<int> faces(a.faces.size() + b.faces.size());
+    std::merge(a.faces.begin(), a.faces.end(), b.faces.begin(), b.faces.end(), faces.begin());
+    return !has_deep_valley(part_graph(scene.mesh, faces), scene.surface, tolerance);
+  };
+  PartMerging merging(scene.mesh, scene.space, std::move(parts), accept, {.minimum_thickness = thickness});
+  merging.merge(progress);
+  if (merging.dissolve(progress) > 0) merging.merge(progress);
+  parts = merging.parts();
+  if (settings.max_hulls > 0) merge_down_to(settings.max_hulls, scene.mesh, scene.space, parts, thickness, progress);
+  return parts;
+}
+
+// The hull of a part in model units: of the very vertices of the input, so that none is outside by rounding.
+Mesh delivered_hull(const Mesh& input, const Scene& scene, const HullPart& part, double thickness, const HullPromise& promise) {
+  const Vertices own = corners_of(input, part.faces);
+  Vertices points(own.rows() + part.inner.rows(), 3);
+  points << own, (part.inner * scene.sphere.radius).rowwise() + scene.sphere.centre;
+  return promise.shape(convex_hull(points, thickness * scene.sphere.radius).mesh);
+}
+
+struct Result {
+  std::vector<HullPart> parts;
+  std::vector<Mesh> hulls;
+  double concavity = 0;  // of the scaled mesh
+};
+
+Result run(const Mesh& input, Scene& scene, double tolerance, const DecompositionSettings& settings, Stopwatch& watch,
+           const Progress& progress) {
+  const double thickness = std::min(kLargestThickness, tolerance / 10);
+  const HullPromise promise(scene.outside, kCertainty * tolerance, settings.max_hull_vertices);
+  Result result;
+  result.parts = watch.time("parts", [&] {
+    if (settings.measure == ConcavityMeasure::valley) return valley_parts(scene, tolerance, thickness, settings, progress);
+    return hull_decomposition(scene.mesh, scene.surface, scene.space, scene.outside, promise,
+                              {.minimum_thickness = thickness, .max_hulls = settings.max_hulls}, progress);
+  });
+  std::sort(result.parts.begin(), result.parts.end(), [](const HullPart& a, const HullPart& b) { return a.faces.front() < b.faces.front(); });
+  result.hulls = watch.time("hulls", [&] {
+    std::vector<Mesh> hulls;
+    for (const HullPart& part : result.parts) hulls.push_back(delivered_hull(input, scene, part, thickness, promise));
+    return hulls;
+  });
+  result.concavity = watch.time("measure", [&] {
+    double concavity = 0;
+    for (std::size_t p = 0; p < result.parts.size(); ++p) {
+      progress("measuring", static_cast<double>(p) / static_cast<double>(result.parts.size()));
+      if (settings.measure == ConcavityMeasure::valley) {
+        concavity = std::max(concavity, find_bridges(part_graph(scene.mesh, result.parts[p].faces), scene.surface, tolerance).concavity);
+      } else {
+        Mesh hull = result.hulls[p];
+        hull.vertices = (hull.vertices.rowwise() - scene.sphere.centre) / scene.sphere.radius;
+        concavity = std::max(concavity, scene.outside.reach(ConvexBody(hull)).distance);
+      }
+    }
+    return concavity;
+  });
+  return result;
+}
+
+std::vector<int> labels_of(const std::vector<HullPart>& parts, Eigen::Index faces) {
+  std::vector<int> labels(static_cast<std::size_t>(faces), 0);
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    for (int f : parts[p].faces) labels[f] = static_cast<int>(p);
+  return labels;
+}
+
+// The label with the largest area among the faces that each input face was cut into.
+std::vector<int> majority(const Subdivision& cut, const std::vector<int>& cut_labels, Eigen::Index faces) {
+  std::vector<std::map<int, double>> area(static_cast<std::size_t>(faces));
+  for (std::size_t f = 0; f < cut.parent.size(); ++f) {
+    const auto face = cut.mesh.faces.row(static_cast<Eigen::Index>(f));
+    const Point a = cut.mesh.vertices.row(face[0]);
+    const Point across = (cut.mesh.vertices.row(face[1]) - a).cross(cut.mesh.vertices.row(face[2]) - a);
+    area[cut.parent[f]][cut_labels[f]] += across.norm();
+  }
+  std::vector<int> labels;
+  for (const auto& shares : area)
+    labels.push_back(std::max_element(shares.begin(), shares.end(), [](const auto& x, const auto& y) { return x.second < y.second; })->first);
+  return labels;
+}
+
+// Whether one label a face ended in crumbs: a part of at most two faces, on a mesh with few and long faces.
+bool too_coarse(const Mesh& mesh, const std::vector<HullPart>& parts) {
+  return mesh.faces.rows() <= kCoarseFaces && parts.size() > 1 &&
+         std::any_of(parts.begin(), parts.end(), [](const HullPart& p) { return p.faces.size() <= 2; });
+}
+
+}  // namespace
 
 Decomposition decompose(const Mesh& mesh, const DecompositionSettings& settings, const Progress& progress) {
-  progress("hull", 0);
+  const Sphere sphere = bounding_sphere(mesh);
+  check(mesh, settings, sphere.radius);
   Decomposition result;
-  result.labels.assign(static_cast<std::size_t>(mesh.faces.rows()), 0);
-  result.mesh = mesh;
-  result.mesh_labels = result.labels;
-  result.radius = bounding_sphere(mesh).radius;
+  Stopwatch watch(result.seconds);
+  result.radius = sphere.radius;
   result.tolerance = settings.tolerance;
-  result.hulls.push_back(convex_hull(mesh.vertices, 1e-4 * result.radius).mesh);
+  const double tolerance = settings.absolute ? settings.tolerance / sphere.radius : settings.tolerance;
+  const double thickness = std::min(kLargestThickness, tolerance / 10);
+
+  auto scene = watch.time("prepare", [&] { return std::make_unique<Scene>(mesh, sphere, tolerance, thickness); });
+  Result best = run(mesh, *scene, tolerance, settings, watch, progress);
+  result.mesh = mesh;
+  result.labels = result.mesh_labels = labels_of(best.parts, mesh.faces.rows());
+  if (settings.measure == ConcavityMeasure::hull && too_coarse(mesh, best.parts)) {
+    const Subdivision cut = split_long_edges(mesh, kCoarseEdge * tolerance * sphere.radius, kMostFacesCut);
+    scene = watch.time("prepare", [&] { return std::make_unique<Scene>(cut.mesh, sphere, tolerance, thickness); });
+    Result finer = run(cut.mesh, *scene, tolerance, settings, watch, progress);
+    if (finer.parts.size() < best.parts.size()) {
+      best = std::move(finer);
+      result.cut_inside = true;
+      result.mesh = cut.mesh;
+      result.mesh_labels = labels_of(best.parts, cut.mesh.faces.rows());
+      result.labels = majority(cut, result.mesh_labels, mesh.faces.rows());
+    }
+  }
+  result.hulls = std::move(best.hulls);
+  result.concavity = best.concavity * (settings.absolute ? sphere.radius : 1);
+  result.watertight = scene->closed;
+  result.volume_ratio = watch.time("volume", [&] {
+    if (!result.watertight) return std::numeric_limits<double>::quiet_NaN();
+    const Coverage volumes = coverage(scene->mesh, {});
+    const double unit = std::pow(sphere.radius, 3);
+    return union_volume(result.hulls) / (volumes.solid_volume * unit);
+  });
   return result;
 }
 

@@ -80,7 +80,7 @@ Vertices corners_of(const Mesh& mesh, const std::vector<int>& faces) {
 
 HullPart hull_part(const Mesh& mesh, std::vector<int> faces, double minimum_thickness) {
   const ConvexHull hull = convex_hull(corners_of(mesh, faces), minimum_thickness);
-  HullPart part{std::move(faces), hull.mesh.vertices, {}, hull.volume};
+  HullPart part{std::move(faces), hull.mesh.vertices, {}, hull.volume, {}};
   part.sketch = extreme_points(part.corners);
   return part;
 }
@@ -118,7 +118,7 @@ bool PartMerging::joined(const HullPart& a, const HullPart& b, HullPart& result)
   if (!accept_(a, b, hull.mesh)) return false;
   std::vector<int> faces(a.faces.size() + b.faces.size());
   std::merge(a.faces.begin(), a.faces.end(), b.faces.begin(), b.faces.end(), faces.begin());
-  result = {std::move(faces), hull.mesh.vertices, extreme_points(hull.mesh.vertices), hull.volume};
+  result = {std::move(faces), hull.mesh.vertices, extreme_points(hull.mesh.vertices), hull.volume, stacked(a.inner, b.inner)};
   return true;
 }
 
@@ -142,7 +142,35 @@ std::vector<int> PartMerging::neighbours(int part) const {
   return result;
 }
 
-void PartMerging::merge(const Progress& progress) {
+void PartMerging::connect_all() {
+  constexpr std::size_t kNearest = 8;
+  const auto count = static_cast<int>(pieces_.size());
+  std::vector<Point> centre;
+  for (const HullPart& piece : pieces_) centre.push_back(piece.corners.colwise().mean());
+  const auto link = [&](int a, int b) {
+    piece_neighbours_[a].push_back(b);
+    piece_neighbours_[b].push_back(a);
+  };
+  std::vector<int> order(pieces_.size());
+  for (int a = 0; a < count; ++a) {
+    if (a > 0) link(a - 1, a);  // A chain through all: nothing stays apart.
+    std::iota(order.begin(), order.end(), 0);
+    const std::size_t nearest = std::min(kNearest, order.size());
+    std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(nearest), order.end(), [&](int x, int y) {
+      const double dx = (centre[x] - centre[a]).squaredNorm(), dy = (centre[y] - centre[a]).squaredNorm();
+      return dx != dy ? dx < dy : x < y;
+    });
+    for (std::size_t i = 0; i < nearest; ++i)
+      if (order[i] != a) link(a, order[i]);
+  }
+  for (auto& list : piece_neighbours_) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+}
+
+void PartMerging::merge(const Progress& progress, int at_least) {
+  auto count = static_cast<int>(std::count_if(parts_.begin(), parts_.end(), [](const Part& p) { return !p.pieces.empty(); }));
   struct Candidate {
     double cost;
     int a, b, version_a, version_b;
@@ -168,7 +196,7 @@ void PartMerging::merge(const Progress& progress) {
     }
     fresh.clear();
     while (fresh.empty()) {
-      if (queue.empty()) return;
+      if (queue.empty() || count <= at_least) return;
       const auto [c, a, b, version_a, version_b] = queue.top();
       queue.pop();
       if (parts_[a].version != version_a || parts_[b].version != version_b) continue;
@@ -187,6 +215,7 @@ void PartMerging::merge(const Progress& progress) {
       parts_[b].pieces.clear();
       replace(b, {});
       replace(a, std::move(both));
+      --count;
       for (int n : neighbours(a))
         if (!parts_[a].refused.count(n)) fresh.emplace_back(std::min(n, a), std::max(n, a));
       if (fresh.empty()) break;

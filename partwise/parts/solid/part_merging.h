@@ -21,6 +21,7 @@ struct HullPart {
   Vertices corners;        // vertices of the exact convex hull of the faces' vertices
   Vertices sketch;         // extreme_points() of the corners, for quick estimates
   double volume = 0;       // of the exact hull
+  Vertices inner;          // corners that are no vertices of the faces: points inside the solid that the hull takes in
 };
 
 // The points that are extreme in one of a fixed set of directions spread over the sphere: at most 96 of them.
@@ -45,8 +46,11 @@ class PartMerging {
   PartMerging(const Mesh& mesh, const SpaceSamples& space, std::vector<HullPart> pieces, AcceptMerge accept,
               const MergeSettings& settings);
 
-  // Merges until no pair is accepted.
-  void merge(const Progress& progress);
+  // Merges until no pair is accepted, or `at_least` parts are left.
+  void merge(const Progress& progress, int at_least = 1);
+
+  // Makes parts neighbours that share no vertex, each of the nearest few, so that all can be merged into one.
+  void connect_all();
 
   // Tries once to dissolve each part, smallest volume first. Returns how many went.
   int dissolve(const Progress& progress);
