@@ -1,5 +1,7 @@
 #include "partwise/parts/solid/decompose.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
