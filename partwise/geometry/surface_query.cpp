@@ -14,9 +14,22 @@
 namespace partwise {
 namespace {
 
+double squared_segment_distance(const Point& p, const Point& a, const Point& b) {
+  const Point ab = b - a;
+  const double length2 = ab.squaredNorm();
+  const double t = length2 > 0 ? std::clamp((p - a).dot(ab) / length2, 0.0, 1.0) : 0.0;
+  return (p - a - t * ab).squaredNorm();
+}
+
+constexpr double kSliver2 = 1e-24;  // squared height over longest edge: below, a triangle's normal is mostly rounding
+
 // Squared distance from p to the triangle (a, b, c) (Ericson 2004, section 5.1.5).
 double squared_distance(const Point& p, const Point& a, const Point& b, const Point& c) {
   const Point ab = b - a, ac = c - a, ap = p - a;
+  const double longest2 = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
+  if (!(ab.cross(ac).squaredNorm() > kSliver2 * longest2 * longest2)) {
+    return std::min({squared_segment_distance(p, a, b), squared_segment_distance(p, b, c), squared_segment_distance(p, c, a)});
+  }
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);
   if (d1 <= 0 && d2 <= 0) return ap.squaredNorm();
   const Point bp = p - b;
