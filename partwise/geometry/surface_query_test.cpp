@@ -191,13 +191,16 @@ TEST(SurfaceQuery, FirstHitIsTheNearestFaceThatTheRayMeets) {
   EXPECT_GT(hits, 100);
 }
 
-TEST(SurfaceQuery, FacesWithoutAreaAreSkippedAndKeepTheirNumber) {
+TEST(SurfaceQuery, FacesWithoutAreaAreSegmentsToDistancesAndNothingToRays) {
   Mesh mesh{Vertices(5, 3), Faces(3, 3)};
   mesh.vertices << 0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0, 9, 9, 9;
   mesh.faces << 0, 1, 3, 4, 4, 4, 0, 1, 2;
   const SurfaceQuery surface(mesh);
   EXPECT_EQ(surface.first_hit(Point(0.2, 0.2, 1), Point(0, 0, -1), 0).face, 2);
+  EXPECT_EQ(surface.first_hit(Point(1.5, 0, 1), Point(0, 0, -1), 0).face, -1);
   EXPECT_NEAR(surface.distance(Point(0.2, 0.2, 1)), 1, 1e-5);
+  EXPECT_NEAR(surface.distance(Point(1.7, -1, 0)), 1, 1e-5);
+  EXPECT_NEAR(surface.distance(Point(9, 9, 8)), 1, 1e-5);
   mesh.faces.conservativeResize(2, 3);
   EXPECT_THROW(SurfaceQuery{mesh}, InputError);
   EXPECT_THROW(SurfaceQuery{Mesh{}}, InputError);
