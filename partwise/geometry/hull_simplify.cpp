@@ -301,7 +301,8 @@ Vertices enclosing_tetrahedron(const Vertices& points) {
   return corners;
 }
 
-// The convex hull of the corners, scaled up about `centre`, by no more than rounding asks for, until it encloses.
+// The convex hull of the corners, scaled up about `centre`, by no more than rounding asks for, until it encloses; without
+// faces when the centre itself lies outside, so that no scale would do.
 Mesh enclosing_hull(const Vertices& corners, const Vertices& points, const Point& centre) {
   const double size = (points.rowwise() - centre).rowwise().norm().maxCoeff();
   double scale = 1;
@@ -317,7 +318,7 @@ Mesh enclosing_hull(const Vertices& corners, const Vertices& points, const Point
       inradius = std::min(inradius, plane[3]);
     }
     if (excess <= 0) return mesh;
-    PARTWISE_CHECK(inradius, >, 0.0);
+    if (inradius <= 0) return {};
     scale *= 1 + 2 * std::max(excess / inradius, 1e-16);
   }
   throw CheckFailed("simplify_hull: rounding left a point outside");
@@ -339,9 +340,10 @@ Mesh simplify_hull(const Mesh& hull, int max_vertices) {
   for (int sweep = 0; sweep < 20 && simplifier.polish() > 1e-4; ++sweep) {
   }
   const Mesh tetrahedron = enclosing_hull(enclosing_tetrahedron(round) * frame.transpose(), hull.vertices, centre);
+  PARTWISE_CHECK(tetrahedron.faces.rows(), ==, 4);
   if (simplifier.vertex_count() > max_vertices) return tetrahedron;
   Mesh simple = enclosing_hull(simplifier.vertices() * frame.transpose(), hull.vertices, centre);
-  return signed_volume(tetrahedron) < signed_volume(simple) ? tetrahedron : simple;
+  return simple.faces.rows() == 0 || signed_volume(tetrahedron) < signed_volume(simple) ? tetrahedron : simple;
 }
 
 }  // namespace partwise
