@@ -41,14 +41,22 @@ bool absorb_faces(const Mesh& mesh, std::vector<HullPart>& parts, double minimum
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return parts[a].volume > parts[b].volume; });
 
   bool changed = false;
+  // Marks of the part that last looked at a face or a vertex: nothing of the mesh's size is touched for every part.
+  std::vector<int> face_seen(owner.size(), -1), vertex_seen(static_cast<std::size_t>(mesh.vertices.rows()), -1);
+  std::vector<char> vertex_inside(vertex_seen.size(), 0);
   for (int p : order) {
     if (parts[p].faces.empty()) continue;
-    std::vector<char> inside(static_cast<std::size_t>(mesh.vertices.rows()), 0);
-    for (int v : points_inside(mesh.vertices, convex_hull(parts[p].corners, minimum_thickness).mesh)) inside[v] = 1;
+    const auto planes = hull_planes(convex_hull(parts[p].corners, minimum_thickness).mesh);
+    const auto inside = [&](int v) {
+      if (vertex_seen[v] != p) {
+        vertex_seen[v] = p;
+        vertex_inside[v] = ((planes.leftCols<3>() * mesh.vertices.row(v).transpose()).array() <= planes.col(3).array()).all();
+      }
+      return vertex_inside[v] != 0;
+    };
     // What hangs together with the part inside its hull, by owner.
     std::map<int, std::vector<int>> offered;
     std::vector<int> front = parts[p].faces;
-    std::vector<char> seen(owner.size(), 0);
     while (!front.empty()) {
       const int f = front.back();
       front.pop_back();
@@ -56,9 +64,9 @@ bool absorb_faces(const Mesh& mesh, std::vector<HullPart>& parts, double minimum
         const int v = mesh.faces(f, k);
         for (int i = stars.first[v]; i < stars.first[v + 1]; ++i) {
           const int g = stars.faces[i];
-          if (seen[g] || owner[g] < 0 || owner[g] == p) continue;
-          if (!inside[mesh.faces(g, 0)] || !inside[mesh.faces(g, 1)] || !inside[mesh.faces(g, 2)]) continue;
-          seen[g] = 1;
+          if (face_seen[g] == p || owner[g] < 0 || owner[g] == p) continue;
+          if (!inside(mesh.faces(g, 0)) || !inside(mesh.faces(g, 1)) || !inside(mesh.faces(g, 2))) continue;
+          face_seen[g] = p;
           offered[owner[g]].push_back(g);
           front.push_back(g);
         }
