@@ -45,6 +45,9 @@ class Stopwatch {
 };
 
 void check(const Mesh& mesh, const DecompositionSettings& settings, double radius) {
+  for (int v : mesh.faces.reshaped())
+    if (!mesh.vertices.row(v).allFinite())
+      throw InputError("mesh", fmt::format("vertex {} is not finite", v), "give coordinates that are numbers");
   if (!(radius > 0)) throw InputError("mesh", "no face of positive area", "give a mesh with at least one proper triangle");
   if (!(settings.tolerance > 0) || !std::isfinite(settings.tolerance))
     throw InputError("tolerance", "is not a positive number", "give one, 0.1 for coarse and 0.02 for fine parts");
@@ -55,7 +58,6 @@ void check(const Mesh& mesh, const DecompositionSettings& settings, double radiu
   if (settings.max_hulls < 0) throw InputError("max_hulls", "is negative", "give 0 for no limit");
   if (settings.max_hull_vertices < 0 || (settings.max_hull_vertices > 0 && settings.max_hull_vertices < 4))
     throw InputError("max_hull_vertices", "is below 4", "give 0 for no limit, or 4 and more");
-  static_cast<void>(mesh);
 }
 
 // The mesh centred and scaled to a bounding sphere of radius 1, faces turned one way, and what is measured on it.
@@ -177,6 +179,16 @@ bool too_coarse(const Mesh& mesh, const std::vector<HullPart>& parts) {
          std::any_of(parts.begin(), parts.end(), [](const HullPart& p) { return p.faces.size() <= 2; });
 }
 
+// Cut to edges of this length, or to twice, four times ... that where it would make too many faces.
+Subdivision cut_for(const Mesh& mesh, double longest) {
+  for (;; longest *= 2) {
+    try {
+      return split_long_edges(mesh, longest, kMostFacesCut);
+    } catch (const InputError&) {  // Ends: a mesh this coarse has few enough faces when none is cut.
+    }
+  }
+}
+
 }  // namespace
 
 Decomposition decompose(const Mesh& mesh, const DecompositionSettings& settings, const Progress& progress) {
@@ -194,7 +206,7 @@ Decomposition decompose(const Mesh& mesh, const DecompositionSettings& settings,
   result.mesh = mesh;
   result.labels = result.mesh_labels = labels_of(best.parts, mesh.faces.rows());
   if (settings.measure == ConcavityMeasure::hull && too_coarse(mesh, best.parts)) {
-    const Subdivision cut = split_long_edges(mesh, kCoarseEdge * tolerance * sphere.radius, kMostFacesCut);
+    const Subdivision cut = cut_for(mesh, kCoarseEdge * tolerance * sphere.radius);
     scene = watch.time("prepare", [&] { return std::make_unique<Scene>(cut.mesh, sphere, tolerance, thickness); });
     Result finer = run(cut.mesh, *scene, tolerance, settings, watch, progress);
     if (finer.parts.size() < best.parts.size()) {
