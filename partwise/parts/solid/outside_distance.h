@@ -27,7 +27,8 @@ struct ConvexBody {
 
 class OutsideDistance {
  public:
-  // `box` bounds every body that will be asked about. `resolution`: side of the smallest cubes, model units.
+  // `box` bounds the solid. Of bodies that reach farther from its centre than four times its radius less is known: only
+  // that no point of them is farther outside than a corner of their box can be. `resolution`: side of the smallest cubes, model units.
   OutsideDistance(const SurfaceQuery& surface, bool closed, const Sphere& box, double resolution);
 
   // Whether no point of the body is farther outside than the tolerance.
@@ -49,6 +50,7 @@ class OutsideDistance {
   struct Visit;
 
   double signed_distance(const Point& centre, double parent_value, double step) const;
+  double beyond(const ConvexBody& body) const;  // that bound; 0 for bodies that lie in the root cube
   void split(std::int32_t cube, const Point& centre, double half);
 
   const SurfaceQuery& surface_;
