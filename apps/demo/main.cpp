@@ -65,6 +65,8 @@ std::vector<demo::Picture> tell_pictures(const demo::Model& model, const Decompo
     pictures.push_back(demo::make_picture(image, std::move(caption), fmt::format("{}: {}", model.name, shown)));
   };
   add(drawn.input, "Input", "the mesh as it came");
+  add(drawn.ridges, fmt::format("{} ridges, {} valleys", drawn.ridge_count, drawn.valley_count),
+      "the deep valleys as lines, the convex ridges as beads");
   add(drawn.parts, fmt::format("{} parts", decomposed.parts.parts()), "faces in the colours of their parts");
   add(drawn.hulls, "Their hulls, drawn apart", "the convex hull of each part");
   return pictures;
