@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "partwise/appearance/palette.h"
+#include "partwise/geometry/topology.h"
 #include "partwise/parts/solid/convex_ridges.h"
 #include "partwise/parts/solid/valley_decomposition.h"
 
@@ -32,7 +33,7 @@ Image draw(PreviewScene scene, double azimuth) {
 Image draw_ridges(const Mesh& mesh, const partwise::Decomposition& parts, double azimuth, ModelPictures& pictures) {
   PreviewScene scene;
   scene.meshes.push_back({mesh, {}});
-  const partwise::SurfaceQuery surface(mesh);
+  const partwise::SurfaceQuery surface(partwise::orient_consistently(mesh));
   std::vector<int> faces(static_cast<std::size_t>(mesh.faces.rows()));
   std::iota(faces.begin(), faces.end(), 0);
   for (const std::vector<int>& group : partwise::connected_groups(mesh, faces)) {

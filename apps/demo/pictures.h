@@ -1,4 +1,4 @@
-// The pictures of one model: as it came, the ridges and valleys that its first cuts follow, its parts, and their hulls
+// The pictures of one model: as it came, its deep valleys and convex ridges at the tolerance, its parts, and their hulls
 // drawn apart.
 #pragma once
 
