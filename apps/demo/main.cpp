@@ -62,9 +62,12 @@ std::vector<demo::Picture> tell_pictures(const demo::Model& model, const Decompo
     pictures.push_back(demo::make_picture(image, std::move(caption), fmt::format("{}: {}", model.name, shown)));
   };
   add(drawn.input, "Input", "the mesh as it came");
-  add(drawn.ridges, fmt::format("{} ridges, {} valleys", drawn.ridge_count, drawn.valley_count),
+  const auto count = [](int number, std::string_view of) {
+    return fmt::format("{} {}{}", number, of, number == 1 ? "" : "s");
+  };
+  add(drawn.ridges, count(drawn.ridge_count, "ridge") + ", " + count(drawn.valley_count, "deep valley"),
       "the deep valleys as lines, the convex ridges as beads");
-  add(drawn.parts, fmt::format("{} parts", decomposed.parts.parts()), "faces in the colours of their parts");
+  add(drawn.parts, count(decomposed.parts.parts(), "part"), "faces in the colours of their parts");
   add(drawn.hulls, "Their hulls, drawn apart", "the convex hull of each part");
   return pictures;
 }

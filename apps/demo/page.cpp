@@ -116,8 +116,8 @@ std::string models_section(const Story& story) {
 <p>R is the radius of a model's bounding sphere, and the tolerance is {0:.2f} R. Every face belongs to one part, every part is
 connected, and each hull encloses its part. What else is promised depends on the measure of concavity:</p>
 <ul>
-<li><b>hull</b>, which the pictures show: no point of any part's hull lies outside the solid by more than {0:.2f} R; for an open
-mesh the distance is to its surface.</li>
+<li><b>hull</b>, which the pictures show: no point of any part's hull lies outside the solid by more than {0:.2f} R. An open mesh
+has no inside: the distance is to its surface, so its hulls follow the shell, and there are more of them.</li>
 <li><b>valley</b>, as published: between the ends of any edge of a part's hull, the shortest path on the part runs nowhere
 deeper than {0:.2f} R below that edge, unless it keeps to the hull as the rim of a cup does.</li>
 </ul>
@@ -133,10 +133,10 @@ std::string pile_section(const PileStory& pile) {
       R"(<section>
 <h2>Ready to simulate</h2>
 <p>{} copies, {} convex hulls in all, fall onto a floor in Bullet. Each body is a compound of its model's hulls with their mass
-and inertia. {:.0f} seconds of simulation took {:.1f} seconds of one core, and at the end no hull reached more than
-{:.3f} R below the floor.</p>
+and inertia. {:.0f} seconds of simulation took {:.1f} seconds of one core, and at the end no hull reached {}below the floor.</p>
 )",
-      pile.bodies, thousands(pile.hulls), pile.simulated, pile.seconds, pile.deepest);
+      pile.bodies, thousands(pile.hulls), pile.simulated, pile.seconds,
+      pile.deepest > 0 ? fmt::format("more than {:.3f} R ", std::ceil(1000 * pile.deepest) / 1000) : "");
   html += figures(pile.falling, "row");
   return html + "<div class=\"wide\">\n" + figure(pile.heap_hulls, "eager") + "</div>\n</section>\n";
 }

@@ -29,6 +29,15 @@ Image draw(PreviewScene scene, double azimuth) {
   return render_preview(scene, frame_scene(scene, view, aspect), settings);
 }
 
+// Without a deep valley (rims, which run on the hull, do not count) the hull vertices are one ridge.
+std::vector<std::vector<int>> ridges_of(const partwise::PartGraph& part, const partwise::Bridges& bridges) {
+  std::vector<std::vector<int>> ridges = partwise::convex_ridges(part, bridges).members;
+  if (!bridges.deep.empty()) return ridges;
+  for (std::size_t i = 1; i < ridges.size(); ++i) ridges[0].insert(ridges[0].end(), ridges[i].begin(), ridges[i].end());
+  ridges.resize(std::min<std::size_t>(ridges.size(), 1));
+  return ridges;
+}
+
 // The input with its deep valleys as dark lines and the hull vertices of each convex ridge as beads of one colour.
 Image draw_ridges(const Mesh& mesh, const partwise::Decomposition& parts, double azimuth, ModelPictures& pictures) {
   PreviewScene scene;
@@ -47,7 +56,7 @@ Image draw_ridges(const Mesh& mesh, const partwise::Decomposition& parts, double
       scene.curves.push_back({positions(valley.path), 0.0045 * parts.radius, {0.03f, 0.035f, 0.05f}});
       ++pictures.valley_count;
     }
-    for (const std::vector<int>& ridge : partwise::convex_ridges(part, bridges).members) {
+    for (const std::vector<int>& ridge : ridges_of(part, bridges)) {
       scene.points.push_back({positions(ridge), 0.014 * parts.radius, partwise::part_colour(pictures.ridge_count++)});
     }
   }

@@ -162,7 +162,7 @@ Pile simulate_pile(std::span<const PileKind> kinds, const PileSettings& settings
 PilePictures draw_pile(const Pile& pile, const PileSettings& settings) {
   PilePictures pictures;
   const double aspect = static_cast<double>(settings.width) / settings.height;
-  const partwise::PreviewCamera fall_camera = camera_for(pile.heap, 8, aspect);
+  const partwise::PreviewCamera fall_camera = camera_for(pile.heap, 9.2, aspect);
   for (const PreviewScene& scene : pile.falling) {
     pictures.falling.push_back(render_preview(scene, fall_camera, {settings.width, settings.height, 2}));
   }
