@@ -1,5 +1,5 @@
-// triangle_off MESH OUT.off: any mesh as the library reads it, as the triangles that labels are counted in. The judge reads
-// plain triangles only; Princeton's meshes are such and come to it untouched.
+// triangle_off MESH OUT.off: any mesh as the library reads it, as the triangles that labels are counted in. The judge
+// reads plain triangles only; Princeton's meshes are such and come to it untouched.
 
 #include <exception>
 #include <iostream>

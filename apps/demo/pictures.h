@@ -1,5 +1,5 @@
-// The pictures of one model: as it came, its deep valleys and convex ridges at the tolerance, its parts, and their hulls
-// drawn apart.
+// The pictures of one model: as it came, its deep valleys and convex ridges at the tolerance, its parts, and their
+// hulls drawn apart.
 #pragma once
 
 #include <span>

@@ -117,8 +117,8 @@ class Heap {
   int steps_ = 0;
 };
 
-// Looks at the whole heap; only what rolled away, twice as far from its axis as nine tenths of the bodies are, may leave
-// the picture. With `column` the view also holds that height above the floor, from which bodies fall.
+// Looks at the whole heap; only what rolled away, twice as far from its axis as nine tenths of the bodies are, may
+// leave the picture. With `column` the view also holds that height above the floor, from which bodies fall.
 partwise::PreviewCamera camera_for(const PreviewScene& heap, double column, double aspect) {
   std::vector<std::pair<double, std::size_t>> by_distance;
   for (std::size_t i = 0; i < heap.meshes.size(); ++i) {
