@@ -36,25 +36,22 @@ struct Decomposed {
   partwise::Decomposition parts;
 };
 
+partwise::Decomposition timed_decompose(const partwise::Mesh& mesh, const partwise::DecompositionSettings& settings,
+                                        demo::Figures& figures) {
+  const Clock::time_point start = Clock::now();
+  partwise::Decomposition parts = partwise::decompose(mesh, settings);
+  figures = {parts.parts(), parts.concavity, parts.volume_ratio, seconds_since(start)};
+  return parts;
+}
+
 Decomposed decompose_model(const demo::Model& model, double tolerance, demo::ModelStory& story) {
   Decomposed result;
   result.mesh = partwise::read_mesh(partwise::shared_file("data/models") / model.file);
-  partwise::DecompositionSettings settings;
-  settings.tolerance = tolerance;
-  Clock::time_point start = Clock::now();
-  result.parts = partwise::decompose(result.mesh, settings);
-  story.seconds = seconds_since(start);
-  settings.measure = partwise::ConcavityMeasure::valley;
-  start = Clock::now();
-  story.valley_parts = partwise::decompose(result.mesh, settings).parts();
-  story.valley_seconds = seconds_since(start);
-
+  result.parts = timed_decompose(result.mesh, {.tolerance = tolerance}, story.hull);
+  timed_decompose(result.mesh, {.tolerance = tolerance, .measure = partwise::ConcavityMeasure::valley}, story.valley);
   story.model = model;
   story.faces = static_cast<int>(result.mesh.faces.rows());
   story.watertight = result.parts.watertight;
-  story.parts = result.parts.parts();
-  story.concavity = result.parts.concavity;
-  story.volume_ratio = result.parts.volume_ratio;
   return result;
 }
 
@@ -65,7 +62,12 @@ std::vector<demo::Picture> tell_pictures(const demo::Model& model, const Decompo
     pictures.push_back(demo::make_picture(image, std::move(caption), fmt::format("{}: {}", model.name, shown)));
   };
   add(drawn.input, "Input", "the mesh as it came");
-  add(drawn.parts, fmt::format("{} parts", decomposed.parts.parts()), "faces in the colours of their parts");
+  const auto count = [](int number, std::string_view of) {
+    return fmt::format("{} {}{}", number, of, number == 1 ? "" : "s");
+  };
+  add(drawn.ridges, count(drawn.ridge_count, "ridge") + ", " + count(drawn.valley_count, "deep valley"),
+      "the deep valleys as lines, the convex ridges as beads");
+  add(drawn.parts, count(decomposed.parts.parts(), "part"), "faces in the colours of their parts");
   add(drawn.hulls, "Their hulls, drawn apart", "the convex hull of each part");
   return pictures;
 }

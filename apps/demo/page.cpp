@@ -60,12 +60,12 @@ struct Totals {
 Totals totals(const Story& story) {
   Totals sum;
   for (const ModelStory& model : story.models) {
-    sum.parts += model.parts;
-    sum.concavity = std::max(sum.concavity, model.concavity);
-    sum.seconds += model.seconds;
-    if (!std::isfinite(model.volume_ratio)) continue;
+    sum.parts += model.hull.parts;
+    sum.concavity = std::max(sum.concavity, model.hull.concavity);
+    sum.seconds += model.hull.seconds;
+    if (!std::isfinite(model.hull.volume_ratio)) continue;
     ++sum.closed;
-    sum.ratio += model.volume_ratio;
+    sum.ratio += model.hull.volume_ratio;
   }
   sum.ratio /= std::max(1, sum.closed);
   return sum;
@@ -90,30 +90,41 @@ and certifies that they do.</p>
   return html + "</dl>\n";
 }
 
-std::string model_article(const ModelStory& model, double tolerance) {
+std::string figures_row(std::string_view measure, const Figures& figures) {
+  const std::string ratio = std::isfinite(figures.volume_ratio) ? fmt::format("{:.2f}", figures.volume_ratio) : "open";
+  return fmt::format(
+      "<tr><th scope=\"row\">{}</th><td>{}</td><td>{:.3f} <small>R</small></td><td>{}</td>"
+      "<td>{:.2f} <small>s</small></td></tr>\n",
+      measure, figures.parts, figures.concavity, ratio, figures.seconds);
+}
+
+std::string model_article(const ModelStory& model) {
   std::string html = fmt::format("<article>\n<h3>{}</h3>\n<p class=\"meta\">{} faces, {}</p>\n", model.model.name,
                                  thousands(model.faces), model.watertight ? "closed" : "open");
-  html += figures(model.pictures, "row") + "<dl class=\"facts\">\n";
-  html += fact("parts", fmt::format("{}", model.parts));
-  html += fact("concavity", fmt::format("{:.3f}", model.concavity), fmt::format("of {:.2f} R", tolerance));
-  html += std::isfinite(model.volume_ratio) ? fact("volume ratio", fmt::format("{:.2f}", model.volume_ratio))
-                                            : fact("volume ratio", "open", "has no volume");
-  html += fact("time", fmt::format("{:.2f}", model.seconds), "s");
-  html += fact("by valleys instead", fmt::format("{}", model.valley_parts),
-               fmt::format("parts, {:.2f} s", model.valley_seconds));
-  return html + "</dl>\n</article>\n";
+  html += figures(model.pictures, "row");
+  html +=
+      "<table>\n<thead><tr><th scope=\"col\">measure</th><th scope=\"col\">parts</th><th scope=\"col\">concavity</th>"
+      "<th scope=\"col\">volume ratio</th><th scope=\"col\">time</th></tr></thead>\n<tbody>\n";
+  return html + figures_row("hull", model.hull) + figures_row("valley", model.valley) +
+         "</tbody>\n</table>\n</article>\n";
 }
 
 std::string models_section(const Story& story) {
   std::string html = fmt::format(
       R"(<section>
 <h2>One tolerance for all of them</h2>
-<p>R is the radius of a model's bounding sphere. At tolerance {:.2f} R no point of any part's hull lies outside the solid by
-more than that; for an open mesh the distance is to its surface. Every face belongs to one part, every part is connected, and
-each hull encloses its part.</p>
+<p>R is the radius of a model's bounding sphere, and the tolerance is {0:.2f} R. Every face belongs to one part, every part is
+connected, and each hull encloses its part. What else is promised depends on the measure of concavity:</p>
+<ul>
+<li><b>hull</b>, which the pictures show: no point of any part's hull lies outside the solid by more than {0:.2f} R. An open mesh
+has no inside: the distance is to its surface, so its hulls follow the shell, and there are more of them.</li>
+<li><b>valley</b>, as published: between the ends of any edge of a part's hull, the shortest path on the part runs nowhere
+deeper than {0:.2f} R below that edge, unless it keeps to the hull as the rim of a cup does.</li>
+</ul>
+<p>The volume ratio is the volume of the hulls' union over that of the solid; an open mesh has none.</p>
 )",
       story.tolerance);
-  for (const ModelStory& model : story.models) html += model_article(model, story.tolerance);
+  for (const ModelStory& model : story.models) html += model_article(model);
   return html + "</section>\n";
 }
 
@@ -122,10 +133,10 @@ std::string pile_section(const PileStory& pile) {
       R"(<section>
 <h2>Ready to simulate</h2>
 <p>{} copies, {} convex hulls in all, fall onto a floor in Bullet. Each body is a compound of its model's hulls with their mass
-and inertia. {:.0f} seconds of simulation took {:.1f} seconds of one core, and at the end no hull reached more than
-{:.3f} R below the floor.</p>
+and inertia. {:.0f} seconds of simulation took {:.1f} seconds of one core, and at the end no hull reached {}below the floor.</p>
 )",
-      pile.bodies, thousands(pile.hulls), pile.simulated, pile.seconds, pile.deepest);
+      pile.bodies, thousands(pile.hulls), pile.simulated, pile.seconds,
+      pile.deepest > 0 ? fmt::format("more than {:.3f} R ", std::ceil(1000 * pile.deepest) / 1000) : "");
   html += figures(pile.falling, "row");
   return html + "<div class=\"wide\">\n" + figure(pile.heap_hulls, "eager") + "</div>\n</section>\n";
 }

@@ -15,15 +15,17 @@ struct Picture {
   int width = 0, height = 0;  // pixels
 };
 
+struct Figures {  // of one decomposition
+  int parts = 0;
+  double concavity = 0, volume_ratio = 0, seconds = 0;  // concavity as a share of R; ratio not a number if open
+};
+
 struct ModelStory {
   Model model;
   int faces = 0;
   bool watertight = false;
   std::vector<Picture> pictures;  // from the input to the hulls
-  int parts = 0;
-  double concavity = 0, volume_ratio = 0, seconds = 0;  // concavity as a share of R; ratio not a number if open
-  int valley_parts = 0;
-  double valley_seconds = 0;
+  Figures hull, valley;           // by measure
 };
 
 struct PileStory {

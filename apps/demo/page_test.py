@@ -31,7 +31,7 @@ return {
   unnamed: images.filter(image => !image.alt).length,
   foreign: images.filter(image => !image.src.startsWith('data:')).length + document.querySelectorAll('script, link[href^=http]').length,
   models: document.querySelectorAll('article').length,
-  facts: [...document.querySelectorAll('dd')].map(element => element.textContent),
+  facts: [...document.querySelectorAll('dd, td')].map(element => element.textContent),
   title: document.title,
   paper: getComputedStyle(document.documentElement).backgroundColor,
   ink: getComputedStyle(document.documentElement).color,
@@ -116,7 +116,7 @@ class Page(unittest.TestCase):
                     self.assertEqual(seen["unnamed"], 0)
                     self.assertEqual(seen["foreign"], 0)
                     self.assertGreaterEqual(seen["models"], 8)
-                    self.assertGreaterEqual(seen["images"], 3 * seen["models"] + 4)
+                    self.assertGreaterEqual(seen["images"], 4 * seen["models"] + 4)
                     self.assertNotIn("nan", " ".join(seen["facts"]).lower())
                     dark = brightness(seen["paper"]) < brightness(seen["ink"])
                     self.assertEqual(dark, scheme == "dark")

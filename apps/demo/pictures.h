@@ -1,4 +1,5 @@
-// The pictures of one model: as it came, its parts, and their hulls drawn apart.
+// The pictures of one model: as it came, its deep valleys and convex ridges at the tolerance, its parts, and their
+// hulls drawn apart.
 #pragma once
 
 #include <span>
@@ -9,7 +10,9 @@
 namespace demo {
 
 struct ModelPictures {
-  partwise::Image input, parts, hulls;
+  partwise::Image input, ridges, parts, hulls;
+  int ridge_count = 0;   // convex ridges of all connected pieces of the input together
+  int valley_count = 0;  // deep valleys between them
 };
 
 // `azimuth`: the viewer's, in degrees.

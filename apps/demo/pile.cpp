@@ -117,8 +117,8 @@ class Heap {
   int steps_ = 0;
 };
 
-// Looks at the middle of the heap: nine tenths of the bodies, those nearest its axis, fill the picture; what rolled
-// away may leave it. With `column` the view also holds that height above the floor, from which bodies fall.
+// Looks at the whole heap; only what rolled away, twice as far from its axis as nine tenths of the bodies are, may
+// leave the picture. With `column` the view also holds that height above the floor, from which bodies fall.
 partwise::PreviewCamera camera_for(const PreviewScene& heap, double column, double aspect) {
   std::vector<std::pair<double, std::size_t>> by_distance;
   for (std::size_t i = 0; i < heap.meshes.size(); ++i) {
@@ -127,8 +127,9 @@ partwise::PreviewCamera camera_for(const PreviewScene& heap, double column, doub
   }
   std::sort(by_distance.begin(), by_distance.end());
   PreviewScene framed;
-  for (std::size_t i = 0; i < (by_distance.size() * 9 + 9) / 10; ++i) {
-    framed.meshes.push_back(heap.meshes[by_distance[i].second]);
+  const double far = by_distance.empty() ? 0 : 2 * by_distance[(by_distance.size() * 9 - 1) / 10].first;
+  for (const auto& [distance, index] : by_distance) {
+    if (distance <= far) framed.meshes.push_back(heap.meshes[index]);
   }
   if (column > 0) framed.meshes.emplace_back().mesh.vertices = Point(0, column, 0);
   partwise::PreviewView view;
@@ -162,7 +163,7 @@ Pile simulate_pile(std::span<const PileKind> kinds, const PileSettings& settings
 PilePictures draw_pile(const Pile& pile, const PileSettings& settings) {
   PilePictures pictures;
   const double aspect = static_cast<double>(settings.width) / settings.height;
-  const partwise::PreviewCamera fall_camera = camera_for(pile.heap, 8, aspect);
+  const partwise::PreviewCamera fall_camera = camera_for(pile.heap, 9.2, aspect);
   for (const PreviewScene& scene : pile.falling) {
     pictures.falling.push_back(render_preview(scene, fall_camera, {settings.width, settings.height, 2}));
   }

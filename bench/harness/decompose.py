@@ -6,7 +6,7 @@ import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from . import process
+from . import meshes, process
 from .rand_error import read_labels
 
 
@@ -81,6 +81,19 @@ def judge(settings, mesh, labels, hulls, tolerance=None):
     return None, run.trouble
 
 
+def judged_mesh(settings, mesh, folder):
+    """The mesh as the judge can read it: itself if it is an OFF file of triangles."""
+    try:
+        if mesh.suffix.lower() == ".off":
+            meshes.read_off(mesh)
+            return mesh
+    except ValueError:
+        pass
+    triangles = folder / "triangles.off"
+    process.run([settings.checker.with_name("triangle_off"), mesh, triangles], settings.time_limit)
+    return triangles if triangles.exists() else mesh
+
+
 def decompose(settings, mesh, people=None):
     with tempfile.TemporaryDirectory() as folder:
         files = Files(Path(folder))
@@ -103,7 +116,7 @@ def decompose(settings, mesh, people=None):
 def _judge(settings, files, report, result):
     # Exposure is what `hull` promises and `valley` does not.
     limit = settings.tolerance if settings.measure == "hull" else None
-    result.check, trouble = judge(settings, result.mesh, files.labels, files.hulls, limit)
+    result.check, trouble = judge(settings, judged_mesh(settings, result.mesh, files.folder), files.labels, files.hulls, limit)
     if trouble:
         result.failures.append(f"the judge: {trouble}")
         return

@@ -109,7 +109,7 @@ std::vector<HullPart> split_to_tolerance(const Mesh& mesh, const SurfaceQuery& s
       done.push_back(std::move(part));
       continue;
     }
-    const OutsideDistance::Reach reach = outside.reach(body);
+    const OutsideDistance::Reach reach = outside.reach(body, settings.hull_tolerance);
     std::vector<HullPart> pieces;
     if (try_ridges) {
       const double enough = std::max(settings.hull_tolerance, kReachLeft * reach.distance);

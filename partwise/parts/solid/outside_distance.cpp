@@ -117,7 +117,7 @@ bool OutsideDistance::within(const ConvexBody& body, double tolerance) {
   return !Visit{*this, body, tolerance}.too_far(0, centre_, half_, 0, 0, all);
 }
 
-OutsideDistance::Reach OutsideDistance::reach(const ConvexBody& body) {
+OutsideDistance::Reach OutsideDistance::reach(const ConvexBody& body, double accuracy) {
   struct Entry {
     double bound;
     std::int32_t cube;
@@ -146,8 +146,8 @@ OutsideDistance::Reach OutsideDistance::reach(const ConvexBody& body) {
   while (!queue.empty()) {
     const Entry top = queue.top();
     queue.pop();
-    if (top.depth == depth_) return {top.bound, top.centre};
     const double half = std::ldexp(half_, -top.depth);
+    if (top.depth == depth_ || 2 * half * kHalfDiagonal <= accuracy) return {top.bound, top.centre};
     if (cubes_[static_cast<std::size_t>(top.cube)].first_child < 0) split(top.cube, top.centre, half);
     const std::int32_t child = cubes_[static_cast<std::size_t>(top.cube)].first_child;
     for (int k = 0; k < 8; ++k) consider(child + k, top.depth + 1, top.centre + half / 2 * corner(k), top.planes);

@@ -34,13 +34,13 @@ class OutsideDistance {
   // Whether no point of the body is farther outside than the tolerance.
   bool within(const ConvexBody& body, double tolerance);
 
-  // An upper bound of the largest distance outside that is reached, too large by at most the diagonal of a smallest cube,
-  // and a point of the body (to the same accuracy) where it is nearly reached.
+  // An upper bound of the largest distance outside that is reached, too large by at most `accuracy` or the diagonal of a
+  // smallest cube, whichever is more, and a point of the body (to the same accuracy) where it is nearly reached.
   struct Reach {
     double distance = 0;
     Point where = Point::Zero();
   };
-  Reach reach(const ConvexBody& body);
+  Reach reach(const ConvexBody& body, double accuracy = 0);
 
  private:
   struct Cube {
