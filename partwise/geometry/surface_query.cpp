@@ -14,9 +14,22 @@
 namespace partwise {
 namespace {
 
+double squared_segment_distance(const Point& p, const Point& a, const Point& b) {
+  const Point ab = b - a;
+  const double length2 = ab.squaredNorm();
+  const double t = length2 > 0 ? std::clamp((p - a).dot(ab) / length2, 0.0, 1.0) : 0.0;
+  return (p - a - t * ab).squaredNorm();
+}
+
+constexpr double kSliver2 = 1e-24;  // squared height over longest edge: below, a triangle's normal is mostly rounding
+
 // Squared distance from p to the triangle (a, b, c) (Ericson 2004, section 5.1.5).
 double squared_distance(const Point& p, const Point& a, const Point& b, const Point& c) {
   const Point ab = b - a, ac = c - a, ap = p - a;
+  const double longest2 = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
+  if (!(ab.cross(ac).squaredNorm() > kSliver2 * longest2 * longest2)) {
+    return std::min({squared_segment_distance(p, a, b), squared_segment_distance(p, b, c), squared_segment_distance(p, c, a)});
+  }
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);
   if (d1 <= 0 && d2 <= 0) return ap.squaredNorm();
   const Point bp = p - b;
@@ -57,7 +70,6 @@ struct SurfaceQuery::Scene {
   RTCScene scene = nullptr;
   Vertices vertices;  // centred and scaled to about [-1, 1]
   Faces faces;
-  std::vector<int> face_number;  // in the mesh that was given
   Point centre;
   double scale = 1;  // model units a unit of the scene
   bool is_closed = false;
@@ -71,16 +83,13 @@ struct SurfaceQuery::Scene {
 
 SurfaceQuery::SurfaceQuery(const Mesh& mesh) : scene_(std::make_unique<Scene>()) {
   Scene& s = *scene_;
-  std::vector<int> keep;
-  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
+  bool any_area = false;
+  for (Eigen::Index f = 0; f < mesh.faces.rows() && !any_area; ++f) {
     const Point a = mesh.vertices.row(mesh.faces(f, 0));
-    if ((mesh.vertices.row(mesh.faces(f, 1)) - a).cross(mesh.vertices.row(mesh.faces(f, 2)) - a).squaredNorm() > 0) {
-      keep.push_back(static_cast<int>(f));
-    }
+    any_area = (mesh.vertices.row(mesh.faces(f, 1)) - a).cross(mesh.vertices.row(mesh.faces(f, 2)) - a).squaredNorm() > 0;
   }
-  if (keep.empty()) throw InputError("mesh", "no face has an area", "give a mesh with at least one proper triangle");
-  s.faces = mesh.faces(keep, Eigen::all);
-  s.face_number = keep;
+  if (!any_area) throw InputError("mesh", "no face has an area", "give a mesh with at least one proper triangle");
+  s.faces = mesh.faces;
   s.is_closed = is_watertight(mesh);
   const Sphere sphere = bounding_sphere(mesh);
   s.centre = sphere.centre;
@@ -96,7 +105,7 @@ SurfaceQuery::SurfaceQuery(const Mesh& mesh) : scene_(std::make_unique<Scene>())
                                                              3 * sizeof(float), static_cast<std::size_t>(s.vertices.rows())));
   for (Eigen::Index i = 0; i < s.vertices.size(); ++i) vertex[i] = static_cast<float>(s.vertices.data()[i]);
   auto* index = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                               3 * sizeof(unsigned), keep.size()));
+                                                               3 * sizeof(unsigned), static_cast<std::size_t>(s.faces.rows())));
   for (Eigen::Index i = 0; i < s.faces.size(); ++i) index[i] = static_cast<unsigned>(s.faces.data()[i]);
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(s.scene, geometry);
@@ -157,7 +166,7 @@ SurfaceQuery::Hit SurfaceQuery::first_hit(const Point& p, const Point& direction
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(s.scene, &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-  return {s.face_number[query.hit.primID], static_cast<double>(query.ray.tfar) * s.scale};
+  return {static_cast<int>(query.hit.primID), static_cast<double>(query.ray.tfar) * s.scale};
 }
 
 double SurfaceQuery::winding_number(const Point& p) const {

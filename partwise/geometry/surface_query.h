@@ -1,7 +1,7 @@
 // Questions about a fixed surface in space: how far, inside or outside, on Embree's bounding volume hierarchy.
 //
 // Distances are exact to single precision of the mesh's size (positions are centred and scaled before they are rounded to
-// float): about 1e-6 R. Faces without area are passed over. All queries are const and may run in parallel; answers do not
+// float): about 1e-6 R. Faces without area are segments or points to distances, and nothing to rays. All queries are const and may run in parallel; answers do not
 // depend on the number of threads.
 // Errors: InputError for a mesh without a face of positive area.
 #pragma once

@@ -40,24 +40,39 @@ double largest_bulge(std::span<const Point2> v) {
 std::vector<double> shortest_path_concavity(std::span<const Point2> v) {
   const std::size_t n = v.size();
   const double length = v.back().x();
-  const auto visible = [&](const Point2& p, const Point2& q, std::size_t skip_p, std::size_t skip_q) {
-    for (std::size_t i = 0; i + 1 < n; ++i) {
-      if (i == skip_p || i + 1 == skip_p || i == skip_q || i + 1 == skip_q) continue;
-      if (properly_cross(p, q, v[i], v[i + 1])) return false;
-    }
-    // Neither end's own edges may be crossed from behind: the middle lies below the polyline.
-    const Point2 middle = (p + q) / 2;
-    bool inside = false;
+  double size = 0;
+  for (const Point2& p : v) size = std::max(size, p.cwiseAbs().maxCoeff());
+  const double touch = 1e-12 * size;
+  const auto inside = [&](const Point2& p) {  // or on the boundary
+    bool odd = false;
     for (std::size_t i = 0, j = n - 1; i < n; j = i++) {
-      if ((v[i].y() > middle.y()) == (v[j].y() > middle.y())) continue;
-      if (middle.x() < (v[j].x() - v[i].x()) * (middle.y() - v[i].y()) / (v[j].y() - v[i].y()) + v[i].x()) inside = !inside;
+      if (distance_to_segment(p, v[j], v[i]) <= touch) return true;
+      if ((v[i].y() > p.y()) == (v[j].y() > p.y())) continue;
+      if (p.x() < (v[j].x() - v[i].x()) * (p.y() - v[i].y()) / (v[j].y() - v[i].y()) + v[i].x()) odd = !odd;
     }
-    return inside;
+    return odd;
+  };
+  std::vector<double> stops;
+  const auto visible = [&](const Point2& p, const Point2& q) {
+    for (std::size_t i = 0; i + 1 < n; ++i)
+      if (properly_cross(p, q, v[i], v[i + 1])) return false;
+    // It crosses no edge, but may leave and enter again at vertices: no piece between two of them may be outside.
+    const double length2 = (q - p).squaredNorm();
+    if (length2 == 0) return true;
+    stops.assign({0, 1});
+    for (const Point2& corner : v) {
+      const double t = (corner - p).dot(q - p) / length2;
+      if (t > 0 && t < 1 && (corner - p - t * (q - p)).norm() <= touch) stops.push_back(t);
+    }
+    std::sort(stops.begin(), stops.end());
+    for (std::size_t i = 0; i + 1 < stops.size(); ++i)
+      if (!inside(p + (stops[i] + stops[i + 1]) / 2 * (q - p))) return false;
+    return true;
   };
   std::vector<double> distance(n, std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < n; ++i) {
     const Point2 foot(std::clamp(v[i].x(), 0.0, length), 0);
-    if (v[i].y() <= 0 || i == 0 || i + 1 == n || visible(v[i], foot, i, n)) distance[i] = (v[i] - foot).norm();
+    if (v[i].y() <= 0 || i == 0 || i + 1 == n || visible(v[i], foot)) distance[i] = (v[i] - foot).norm();
   }
   std::vector<char> done(n, 0);
   for (std::size_t round = 0; round < n; ++round) {
@@ -70,7 +85,7 @@ std::vector<double> shortest_path_concavity(std::span<const Point2> v) {
       if (done[i]) continue;
       const double through = distance[nearest] + (v[i] - v[nearest]).norm();
       const bool neighbours = i + 1 == nearest || nearest + 1 == i;
-      if (through < distance[i] && (neighbours || visible(v[i], v[nearest], i, nearest))) distance[i] = through;
+      if (through < distance[i] && (neighbours || visible(v[i], v[nearest]))) distance[i] = through;
     }
   }
   return distance;
@@ -111,7 +126,8 @@ double prefix_concavity(std::span<const Point2> valley, std::size_t k) {
   double concavity = 0;
   for (std::size_t h = 0; h < hull.size(); ++h) {
     const int i = hull[h], j = hull[(h + 1) % hull.size()];
-    for (int m = i + 1; m < j; ++m) concavity = std::max(concavity, distance_to_segment(prefix[m], prefix[i], prefix[j]));
+    for (int m = i + 1; m < j; ++m)
+      concavity = std::max(concavity, distance_to_segment(prefix[m], prefix[i], prefix[j]));
   }
   return concavity;
 }
@@ -171,7 +187,8 @@ ValleySeparators valley_separators(std::span<const Point2> valley, double tolera
   const std::vector<Point2> back = reversed(valley);
   const std::size_t last = valley.size() - 1;
   const std::size_t split = least_residual(valley, back);
-  if (std::max(prefix_concavity(valley, split), prefix_concavity(back, last - split)) < tolerance) return {split, split};
+  if (std::max(prefix_concavity(valley, split), prefix_concavity(back, last - split)) < tolerance)
+    return {split, split};
 
   const std::size_t i = longest_shallow_prefix(valley, tolerance), j = longest_shallow_prefix(back, tolerance);
   const auto separator = [](std::span<const Point2> from_end, std::size_t k) {
@@ -179,7 +196,8 @@ ValleySeparators valley_separators(std::span<const Point2> valley, double tolera
     const auto sub = from_end.first(k + 1);
     std::vector<Point2> frame(sub.size());
     const Point2 along = (sub.back() - sub.front()).normalized();
-    for (std::size_t m = 0; m < sub.size(); ++m) frame[m] = {along.dot(sub[m] - sub.front()), cross(along, sub[m] - sub.front())};
+    for (std::size_t m = 0; m < sub.size(); ++m)
+      frame[m] = {along.dot(sub[m] - sub.front()), cross(along, sub[m] - sub.front())};
     return k < 2 ? k : least_residual(frame, reversed(frame));
   };
   const std::size_t first = std::max<std::size_t>(1, separator(valley, i));

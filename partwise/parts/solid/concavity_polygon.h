@@ -24,7 +24,7 @@ std::vector<double> valley_concavity(std::span<const Point2> valley, double tole
 
 // The concavity of the prefix v_0 .. v_k of the valley once it is split at v_k: the largest distance of its vertices to the
 // edges of its hull that lie inside the polygon, which are those (v_i, v_j), i < j, met counter-clockwise (Lemma 1).
-// Never falls with k. O(k log k).
+// It grows with k, but for vertices that a steeper edge comes closer to. O(k log k).
 double prefix_concavity(std::span<const Point2> valley, std::size_t k);
 
 // RC (2.8): the larger of the concavities of v_0 .. v_k and, from the other end, v_{n-1} .. v_k.

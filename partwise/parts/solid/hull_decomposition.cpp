@@ -1,5 +1,7 @@
 #include "partwise/parts/solid/hull_decomposition.h"
 
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "partwise/geometry/convex_hull.h"
@@ -9,7 +11,10 @@
 namespace partwise {
 namespace {
 
-constexpr double kPieceTolerance = 0.5;  // of the tolerance: what pieces are cut to, so that merging has room
+constexpr double kPieceTolerance = 0.35;  // of the tolerance: what pieces are cut to, so that merging has room
+// No merge takes in more air than this times the square of the tolerance (in R), as a share of the solid: where parts are
+// long and thin a hull can keep within the tolerance and yet be mostly air.
+constexpr double kLargestAir = 10;
 
 // Parts that break the promise once their hulls are simplified are cut until they keep it.
 void keep_promise(const Mesh& mesh, const HullPromise& promise, std::vector<HullPart>& parts, double minimum_thickness) {
@@ -46,7 +51,10 @@ std::vector<HullPart> hull_decomposition(const Mesh& mesh, const SurfaceQuery& s
   keep_promise(mesh, promise, parts, settings.minimum_thickness);
 
   const AcceptMerge accept = [&](const HullPart&, const HullPart&, const Mesh& hull) { return promise.holds(hull); };
-  const MergeSettings merging{.minimum_thickness = settings.minimum_thickness};
+  const double solid = space.volume * static_cast<double>(space.solid.rows());
+  const MergeSettings merging{.minimum_thickness = settings.minimum_thickness,
+                              .largest_air = solid > 0 ? kLargestAir * std::pow(promise.tolerance(), 2) * solid
+                                                       : std::numeric_limits<double>::infinity()};
   {
     PartMerging merge(mesh, space, std::move(parts), accept, merging);
     do merge.merge(progress);

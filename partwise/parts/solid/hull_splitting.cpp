@@ -69,7 +69,11 @@ std::vector<std::vector<int>> split_by_plane(const Mesh& mesh, const std::vector
       trials[t].volume += convex_hull(extreme_points(corners_of(mesh, half)), minimum_thickness).volume;
   });
   const Trial& best = *std::min_element(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) { return a.volume < b.volume; });
-  if (best.volume == std::numeric_limits<double>::infinity()) return {faces};
+  if (best.volume == std::numeric_limits<double>::infinity()) {
+    // The tip of a simplified hull can lie so far out that no plane through it meets the part: then through its middle.
+    const Point middle = c.at.colwise().mean();
+    return through == middle ? std::vector<std::vector<int>>{faces} : split_by_plane(mesh, faces, middle, minimum_thickness);
+  }
   std::vector<std::vector<int>> pieces = connected_groups(mesh, best.side[0]);
   for (auto& group : connected_groups(mesh, best.side[1])) pieces.push_back(std::move(group));
   return pieces;
@@ -105,7 +109,7 @@ std::vector<HullPart> split_to_tolerance(const Mesh& mesh, const SurfaceQuery& s
       done.push_back(std::move(part));
       continue;
     }
-    const OutsideDistance::Reach reach = outside.reach(body);
+    const OutsideDistance::Reach reach = outside.reach(body, settings.hull_tolerance);
     std::vector<HullPart> pieces;
     if (try_ridges) {
       const double enough = std::max(settings.hull_tolerance, kReachLeft * reach.distance);

@@ -8,6 +8,7 @@ namespace partwise {
 namespace {
 
 const double kHalfDiagonal = std::sqrt(3.0);  // of a cube with half side 1
+constexpr double kRoom = 4;  // times the radius: simplified hulls reach outside the ball of the solid
 
 // Corner k of the eight: the sign of each coordinate from a bit.
 Point corner(int k) { return {k & 1 ? 1.0 : -1.0, k & 2 ? 1.0 : -1.0, k & 4 ? 1.0 : -1.0}; }
@@ -31,7 +32,7 @@ ConvexBody::ConvexBody(const Mesh& hull)
     : planes(hull_planes(hull)), low(hull.vertices.colwise().minCoeff()), high(hull.vertices.colwise().maxCoeff()) {}
 
 OutsideDistance::OutsideDistance(const SurfaceQuery& surface, bool closed, const Sphere& box, double resolution)
-    : surface_(surface), closed_(closed), centre_(box.centre), half_(box.radius * 1.001), depth_(0) {
+    : surface_(surface), closed_(closed), centre_(box.centre), half_(kRoom * box.radius * 1.001), depth_(0) {
   for (double side = 2 * half_; side > resolution; side /= 2) ++depth_;
   cubes_.push_back({static_cast<float>(signed_distance(centre_, 4 * half_, 0)), -1});
 }
@@ -102,14 +103,21 @@ struct OutsideDistance::Visit {
   }
 };
 
+double OutsideDistance::beyond(const ConvexBody& body) const {
+  const Point farthest = (body.low - centre_).cwiseAbs().cwiseMax((body.high - centre_).cwiseAbs());
+  if (farthest.maxCoeff() <= half_) return 0;
+  return farthest.norm() + cubes_.front().signed_distance;  // Distance changes by at most the length of a step.
+}
+
 bool OutsideDistance::within(const ConvexBody& body, double tolerance) {
+  if (beyond(body) > tolerance) return false;
   active_.resize(static_cast<std::size_t>(body.planes.rows()));
   for (std::size_t i = 0; i < active_.size(); ++i) active_[i] = static_cast<int>(i);
   const std::size_t all = active_.size();
   return !Visit{*this, body, tolerance}.too_far(0, centre_, half_, 0, 0, all);
 }
 
-OutsideDistance::Reach OutsideDistance::reach(const ConvexBody& body) {
+OutsideDistance::Reach OutsideDistance::reach(const ConvexBody& body, double accuracy) {
   struct Entry {
     double bound;
     std::int32_t cube;
@@ -118,6 +126,7 @@ OutsideDistance::Reach OutsideDistance::reach(const ConvexBody& body) {
     std::vector<int> planes;
     bool operator<(const Entry& other) const { return bound != other.bound ? bound < other.bound : cube > other.cube; }
   };
+  if (const double bound = beyond(body); bound > 0) return {bound, (body.low + body.high) / 2};
   std::priority_queue<Entry> queue;
   const auto consider = [&](std::int32_t cube, int depth, const Point& centre, const std::vector<int>& parent_planes) {
     const double half = std::ldexp(half_, -depth);
@@ -137,8 +146,8 @@ OutsideDistance::Reach OutsideDistance::reach(const ConvexBody& body) {
   while (!queue.empty()) {
     const Entry top = queue.top();
     queue.pop();
-    if (top.depth == depth_) return {top.bound, top.centre};
     const double half = std::ldexp(half_, -top.depth);
+    if (top.depth == depth_ || 2 * half * kHalfDiagonal <= accuracy) return {top.bound, top.centre};
     if (cubes_[static_cast<std::size_t>(top.cube)].first_child < 0) split(top.cube, top.centre, half);
     const std::int32_t child = cubes_[static_cast<std::size_t>(top.cube)].first_child;
     for (int k = 0; k < 8; ++k) consider(child + k, top.depth + 1, top.centre + half / 2 * corner(k), top.planes);

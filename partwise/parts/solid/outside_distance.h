@@ -27,19 +27,20 @@ struct ConvexBody {
 
 class OutsideDistance {
  public:
-  // `box` bounds every body that will be asked about. `resolution`: side of the smallest cubes, model units.
+  // `box` bounds the solid. Of bodies that reach farther from its centre than four times its radius less is known: only
+  // that no point of them is farther outside than a corner of their box can be. `resolution`: side of the smallest cubes, model units.
   OutsideDistance(const SurfaceQuery& surface, bool closed, const Sphere& box, double resolution);
 
   // Whether no point of the body is farther outside than the tolerance.
   bool within(const ConvexBody& body, double tolerance);
 
-  // An upper bound of the largest distance outside that is reached, too large by at most the diagonal of a smallest cube,
-  // and a point of the body (to the same accuracy) where it is nearly reached.
+  // An upper bound of the largest distance outside that is reached, too large by at most `accuracy` or the diagonal of a
+  // smallest cube, whichever is more, and a point of the body (to the same accuracy) where it is nearly reached.
   struct Reach {
     double distance = 0;
     Point where = Point::Zero();
   };
-  Reach reach(const ConvexBody& body);
+  Reach reach(const ConvexBody& body, double accuracy = 0);
 
  private:
   struct Cube {
@@ -49,6 +50,7 @@ class OutsideDistance {
   struct Visit;
 
   double signed_distance(const Point& centre, double parent_value, double step) const;
+  double beyond(const ConvexBody& body) const;  // that bound; 0 for bodies that lie in the root cube
   void split(std::int32_t cube, const Point& centre, double half);
 
   const SurfaceQuery& surface_;

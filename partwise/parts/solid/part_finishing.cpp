@@ -85,7 +85,7 @@ bool absorb_faces(const Mesh& mesh, std::vector<HullPart>& parts, double minimum
 
 void fill_interior(const SpaceSamples& space, std::vector<HullPart>& parts, const HullPromise& promise,
                    double minimum_thickness) {
-  constexpr std::size_t kTries = 4;
+  constexpr std::size_t kTries = 8;
   std::vector<char> covered(static_cast<std::size_t>(space.solid.rows()), 0), air(static_cast<std::size_t>(space.air.rows()), 0);
   std::vector<Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>> planes(parts.size());
   const auto enter = [&](std::size_t p, const Mesh& hull) {
