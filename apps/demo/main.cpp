@@ -65,7 +65,7 @@ std::vector<demo::Picture> tell_pictures(const demo::Model& model, const Decompo
   const auto count = [](int number, std::string_view of) {
     return fmt::format("{} {}{}", number, of, number == 1 ? "" : "s");
   };
-  add(drawn.ridges, count(drawn.ridge_count, "ridge") + ", " + count(drawn.valley_count, "deep valley"),
+  add(drawn.ridges, count(drawn.ridge_count, "ridge") + ", " + count(drawn.valley_count, "valley"),
       "the deep valleys as lines, the convex ridges as beads");
   add(drawn.parts, count(decomposed.parts.parts(), "part"), "faces in the colours of their parts");
   add(drawn.hulls, "Their hulls, drawn apart", "the convex hull of each part");
