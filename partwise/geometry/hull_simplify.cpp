@@ -301,8 +301,8 @@ Vertices enclosing_tetrahedron(const Vertices& points) {
   return corners;
 }
 
-// The convex hull of the corners, scaled up about `centre`, by no more than rounding asks for, until it encloses; without
-// faces when the centre itself lies outside, so that no scale would do.
+// The convex hull of the corners, scaled up about `centre`, by no more than rounding asks for, until it encloses;
+// without faces when the centre itself lies outside, so that no scale would do.
 Mesh enclosing_hull(const Vertices& corners, const Vertices& points, const Point& centre) {
   const double size = (points.rowwise() - centre).rowwise().norm().maxCoeff();
   double scale = 1;

@@ -24,8 +24,8 @@ Subdivision split_long_edges(const Mesh& mesh, double longest, int most_faces) {
     const auto middle = [&](int a, int b) {
       if (a > b) std::swap(a, b);
       if ((vertices[a] - vertices[b]).norm() <= longest) return -1;
-      const auto [entry, added] = middles.try_emplace(static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint32_t>(b),
-                                                      static_cast<int>(vertices.size()));
+      const auto [entry, added] = middles.try_emplace(
+          static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint32_t>(b), static_cast<int>(vertices.size()));
       if (added) vertices.emplace_back((vertices[a] + vertices[b]) / 2);
       return entry->second;
     };
@@ -70,7 +70,8 @@ Subdivision split_long_edges(const Mesh& mesh, double longest, int most_faces) {
   }
   Subdivision result;
   result.mesh.vertices.resize(static_cast<Eigen::Index>(vertices.size()), 3);
-  for (std::size_t i = 0; i < vertices.size(); ++i) result.mesh.vertices.row(static_cast<Eigen::Index>(i)) = vertices[i];
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    result.mesh.vertices.row(static_cast<Eigen::Index>(i)) = vertices[i];
   result.mesh.faces.resize(static_cast<Eigen::Index>(faces.size()), 3);
   for (std::size_t i = 0; i < faces.size(); ++i)
     result.mesh.faces.row(static_cast<Eigen::Index>(i)) << faces[i][0], faces[i][1], faces[i][2];

@@ -1,6 +1,6 @@
-// A finer mesh of the same surface: edges longer than a bound are halved, at the same point in all their faces, until none
-// is longer. Closed stays closed; no vertex moves; new vertices lie on old edges. Linear in the faces that come out.
-// Errors: InputError when more than `most_faces` would come out.
+// A finer mesh of the same surface: edges longer than a bound are halved, at the same point in all their faces, until
+// none is longer. Closed stays closed; no vertex moves; new vertices lie on old edges. Linear in the faces that come
+// out. Errors: InputError when more than `most_faces` would come out.
 #pragma once
 
 #include <vector>

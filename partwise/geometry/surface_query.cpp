@@ -1,7 +1,7 @@
 #include "partwise/geometry/surface_query.h"
 
-#include <Eigen/Geometry>
 #include <embree3/rtcore.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
@@ -28,7 +28,8 @@ double squared_distance(const Point& p, const Point& a, const Point& b, const Po
   const Point ab = b - a, ac = c - a, ap = p - a;
   const double longest2 = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
   if (!(ab.cross(ac).squaredNorm() > kSliver2 * longest2 * longest2)) {
-    return std::min({squared_segment_distance(p, a, b), squared_segment_distance(p, b, c), squared_segment_distance(p, c, a)});
+    return std::min(
+        {squared_segment_distance(p, a, b), squared_segment_distance(p, b, c), squared_segment_distance(p, c, a)});
   }
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);
   if (d1 <= 0 && d2 <= 0) return ap.squaredNorm();
@@ -86,7 +87,8 @@ SurfaceQuery::SurfaceQuery(const Mesh& mesh) : scene_(std::make_unique<Scene>())
   bool any_area = false;
   for (Eigen::Index f = 0; f < mesh.faces.rows() && !any_area; ++f) {
     const Point a = mesh.vertices.row(mesh.faces(f, 0));
-    any_area = (mesh.vertices.row(mesh.faces(f, 1)) - a).cross(mesh.vertices.row(mesh.faces(f, 2)) - a).squaredNorm() > 0;
+    any_area =
+        (mesh.vertices.row(mesh.faces(f, 1)) - a).cross(mesh.vertices.row(mesh.faces(f, 2)) - a).squaredNorm() > 0;
   }
   if (!any_area) throw InputError("mesh", "no face has an area", "give a mesh with at least one proper triangle");
   s.faces = mesh.faces;
@@ -101,11 +103,13 @@ SurfaceQuery::SurfaceQuery(const Mesh& mesh) : scene_(std::make_unique<Scene>())
   s.scene = rtcNewScene(s.device);
   rtcSetSceneFlags(s.scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
   RTCGeometry geometry = rtcNewGeometry(s.device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                             3 * sizeof(float), static_cast<std::size_t>(s.vertices.rows())));
+  auto* vertex =
+      static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                  3 * sizeof(float), static_cast<std::size_t>(s.vertices.rows())));
   for (Eigen::Index i = 0; i < s.vertices.size(); ++i) vertex[i] = static_cast<float>(s.vertices.data()[i]);
-  auto* index = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                               3 * sizeof(unsigned), static_cast<std::size_t>(s.faces.rows())));
+  auto* index =
+      static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                     3 * sizeof(unsigned), static_cast<std::size_t>(s.faces.rows())));
   for (Eigen::Index i = 0; i < s.faces.size(); ++i) index[i] = static_cast<unsigned>(s.faces.data()[i]);
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(s.scene, geometry);

@@ -81,8 +81,8 @@ TEST(SurfaceQuery, SliversAreMeasuredLikeOtherFaces) {
       mesh.vertices.row(3 * f + 2) = a + unit(random) * (b - a) + width * test::random_direction(random);
     }
     const SurfaceQuery surface(mesh);
-    for (const auto& p : test::cloud(test::Cloud::box, 300, random).rowwise())
-      EXPECT_NEAR(surface.distance(p), brute_distance(mesh, p), 3e-6) << width;
+    const Vertices points = test::cloud(test::Cloud::box, 300, random);
+    for (const auto& p : points.rowwise()) EXPECT_NEAR(surface.distance(p), brute_distance(mesh, p), 3e-6) << width;
   }
 }
 
@@ -112,7 +112,8 @@ TEST(SurfaceQuery, WindingNumberOfConvexBodiesTellsInsideFromOutside) {
     const auto planes = hull_planes(mesh);
     const SurfaceQuery surface(mesh);
     int tested = 0;
-    for (const auto& local : test::cloud(test::Cloud::box, 2000, random).rowwise()) {
+    const Vertices locals = test::cloud(test::Cloud::box, 2000, random);
+    for (const auto& local : locals.rowwise()) {
       const Point p = local + Point(offset, -offset, 2 * offset);
       const double height = (planes.leftCols<3>() * p.transpose() - planes.col(3)).maxCoeff();
       if (std::abs(height) < 1e-5) continue;
@@ -127,7 +128,8 @@ TEST(SurfaceQuery, NestedShellsAddUp) {
   const Mesh outer = test::box(Point(-2, -2, -2), Point(2, 2, 2)), inner = test::box(Point(-1, -1, -1), Point(1, 1, 1));
   const SurfaceQuery twice(joined(outer, inner)), hollow(joined(outer, inside_out(inner))), turned(inside_out(outer));
   std::mt19937_64 random(4);
-  for (const auto& p : (2.5 * test::cloud(test::Cloud::box, 1000, random)).eval().rowwise()) {
+  const Vertices points = 2.5 * test::cloud(test::Cloud::box, 1000, random);
+  for (const auto& p : points.rowwise()) {
     const double far = p.cwiseAbs().maxCoeff();
     if (std::abs(far - 1) < 1e-4 || std::abs(far - 2) < 1e-4) continue;
     ASSERT_EQ(twice.winding_number(p), far < 1 ? 2 : far < 2 ? 1 : 0) << p;

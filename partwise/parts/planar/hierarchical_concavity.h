@@ -39,9 +39,9 @@ class BridgeHierarchy {
   std::vector<Node> nodes_;
 };
 
-// The concavity of each vertex of a pocket given as a polyline: its bridge joins the first and the last point. Where the
-// region between pocket and bridge is narrowed by a bulge of the boundary deeper than the tolerance, it is cut there by
-// a bridge of its own, recursively. Self-intersecting polylines are welcome. O(n^2) at worst.
+// The concavity of each vertex of a pocket given as a polyline: its bridge joins the first and the last point. Where
+// the region between pocket and bridge is narrowed by a bulge of the boundary deeper than the tolerance, it is cut
+// there by a bridge of its own, recursively. Self-intersecting polylines are welcome. O(n^2) at worst.
 std::vector<double> hierarchical_concavity(std::span<const Point2> pocket, double tolerance);
 
 }  // namespace partwise

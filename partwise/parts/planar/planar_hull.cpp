@@ -13,7 +13,8 @@ std::vector<int> planar_hull(std::span<const Eigen::Vector2d> points) {
     if (points[i].y() != points[j].y()) return points[i].y() < points[j].y();
     return i < j;
   });
-  order.erase(std::unique(order.begin(), order.end(), [&](int i, int j) { return points[i] == points[j]; }), order.end());
+  order.erase(std::unique(order.begin(), order.end(), [&](int i, int j) { return points[i] == points[j]; }),
+              order.end());
   if (order.size() < 3) return order;
 
   std::vector<int> hull(2 * order.size());

@@ -1,8 +1,8 @@
 // The concavity polygon of a valley, and where to split the valley (Liu 2017, sections 2.4.3, 2.4.3.2, 2.4.4.1).
 //
-// A bridge (a, b) and the path beneath it are flattened: a path vertex p becomes (ap . ab / |ab|, d(p, bridge)) (2.6; the
-// printed formula lacks the division, without which the polygon is stretched). In the flat polygon the bridge is the
-// base from (0, 0) to (|ab|, 0) and the path a polyline above it. All lengths in the units of the points.
+// A bridge (a, b) and the path beneath it are flattened: a path vertex p becomes (ap . ab / |ab|, d(p, bridge)) (2.6;
+// the printed formula lacks the division, without which the polygon is stretched). In the flat polygon the bridge is
+// the base from (0, 0) to (|ab|, 0) and the path a polyline above it. All lengths in the units of the points.
 #pragma once
 
 #include <span>
@@ -22,9 +22,9 @@ std::vector<Point2> flatten_valley(std::span<const Point> path);
 // tolerance, by hierarchical_concavity().
 std::vector<double> valley_concavity(std::span<const Point2> valley, double tolerance);
 
-// The concavity of the prefix v_0 .. v_k of the valley once it is split at v_k: the largest distance of its vertices to the
-// edges of its hull that lie inside the polygon, which are those (v_i, v_j), i < j, met counter-clockwise (Lemma 1).
-// It grows with k, but for vertices that a steeper edge comes closer to. O(k log k).
+// The concavity of the prefix v_0 .. v_k of the valley once it is split at v_k: the largest distance of its vertices to
+// the edges of its hull that lie inside the polygon, which are those (v_i, v_j), i < j, met counter-clockwise (Lemma
+// 1). It grows with k, but for vertices that a steeper edge comes closer to. O(k log k).
 double prefix_concavity(std::span<const Point2> valley, std::size_t k);
 
 // RC (2.8): the larger of the concavities of v_0 .. v_k and, from the other end, v_{n-1} .. v_k.

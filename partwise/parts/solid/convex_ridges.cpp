@@ -29,8 +29,8 @@ std::vector<std::pair<int, int>> hull_edges(const ConvexHull& hull) {
 }
 
 // Whether no vertex of the valley is deeper inside the hull than `depth`.
-bool runs_on_hull(const PartGraph& part, const Valley& valley, const Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>& planes,
-                  double depth) {
+bool runs_on_hull(const PartGraph& part, const Valley& valley,
+                  const Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>& planes, double depth) {
   // From the middle outwards: there an ordinary valley is deep, which ends the search.
   const std::size_t n = valley.path.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -52,8 +52,8 @@ bool runs_inside(const SurfaceQuery& surface, const Point& a, const Point& b) {
 }
 
 // Fills in profile and concavity of a valley whose path is known; returns the path's length.
-double measure(Valley& valley, const PartGraph& part, const Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>& planes,
-               double tolerance) {
+double measure(Valley& valley, const PartGraph& part,
+               const Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>& planes, double tolerance) {
   std::vector<Point> points(valley.path.size());
   for (std::size_t k = 0; k < points.size(); ++k) points[k] = part.positions.row(valley.path[k]);
   double length = 0;

@@ -7,9 +7,9 @@
 // Bridges through the inside of the solid, which only bridge the openings that earlier cuts left, are no bridges: those
 // at whose quarter points the whole surface winds round.
 //
-// A valley that runs on the hull itself has nothing beneath the hull to show: it goes round a flat opening, as the rim of
-// a cup does round the mouth. Such rims do not count as concavity. They are cut where that helps (the outline of a flat
-// plate), see valley_decomposition.h.
+// A valley that runs on the hull itself has nothing beneath the hull to show: it goes round a flat opening, as the rim
+// of a cup does round the mouth. Such rims do not count as concavity. They are cut where that helps (the outline of a
+// flat plate), see valley_decomposition.h.
 #pragma once
 
 #include <span>
@@ -36,7 +36,8 @@ struct Bridges {
   std::vector<Shallow> shallow;
   std::vector<Valley> deep;
   std::vector<Valley> rims;  // deep and on the hull: the rim of a cup, the outline of a plate
-  double concavity = 0;  // largest of all but the rims; for shallow valleys that were only bounded, their bound counts if it is larger
+  double concavity =
+      0;  // largest of all but the rims; for shallow valleys that were only bounded, their bound counts if it is larger
 };
 
 // All bridges of the part at a tolerance in model units. `surface` is the whole solid's.

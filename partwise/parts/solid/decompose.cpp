@@ -20,13 +20,13 @@
 namespace partwise {
 namespace {
 
-constexpr double kSmallestTolerance = 1e-3;   // of R: the octree of distances would not end
-constexpr double kLargestThickness = 1e-3;    // of R: what flat hulls are given, or a tenth of the tolerance if less
-constexpr double kSmallestCube = 1.0 / 32;    // of the tolerance: side of the smallest cubes of the octree
-constexpr double kCertainty = 1 - 1e-4;       // of the tolerance: room for distances in single precision
-constexpr int kSamples = 6000;                // of the space in the convex hull
-constexpr double kCoarseEdge = 0.5;           // of the tolerance: longest edge of a mesh whose faces are cut inside
-constexpr int kCoarseFaces = 5000;            // meshes with more faces are not cut inside
+constexpr double kSmallestTolerance = 1e-3;  // of R: the octree of distances would not end
+constexpr double kLargestThickness = 1e-3;   // of R: what flat hulls are given, or a tenth of the tolerance if less
+constexpr double kSmallestCube = 1.0 / 32;   // of the tolerance: side of the smallest cubes of the octree
+constexpr double kCertainty = 1 - 1e-4;      // of the tolerance: room for distances in single precision
+constexpr int kSamples = 6000;               // of the space in the convex hull
+constexpr double kCoarseEdge = 0.5;          // of the tolerance: longest edge of a mesh whose faces are cut inside
+constexpr int kCoarseFaces = 5000;           // meshes with more faces are not cut inside
 constexpr int kMostFacesCut = 200000;
 
 class Stopwatch {
@@ -48,7 +48,8 @@ void check(const Mesh& mesh, const DecompositionSettings& settings, double radiu
   for (int v : mesh.faces.reshaped())
     if (!mesh.vertices.row(v).allFinite())
       throw InputError("mesh", fmt::format("vertex {} is not finite", v), "give coordinates that are numbers");
-  if (!(radius > 0)) throw InputError("mesh", "no face of positive area", "give a mesh with at least one proper triangle");
+  if (!(radius > 0))
+    throw InputError("mesh", "no face of positive area", "give a mesh with at least one proper triangle");
   if (!(settings.tolerance > 0) || !std::isfinite(settings.tolerance))
     throw InputError("tolerance", "is not a positive number", "give one, 0.1 for coarse and 0.02 for fine parts");
   const double relative = settings.absolute ? settings.tolerance / radius : settings.tolerance;
@@ -105,7 +106,8 @@ std::vector<HullPart> valley_parts(const Scene& scene, double tolerance, double 
 }
 
 // The hull of a part in model units: of the very vertices of the input, so that none is outside by rounding.
-Mesh delivered_hull(const Mesh& input, const Scene& scene, const HullPart& part, double thickness, const HullPromise& promise) {
+Mesh delivered_hull(const Mesh& input, const Scene& scene, const HullPart& part, double thickness,
+                    const HullPromise& promise) {
   const Vertices own = corners_of(input, part.faces);
   Vertices points(own.rows() + part.inner.rows(), 3);
   points << own, (part.inner * scene.sphere.radius).rowwise() + scene.sphere.centre;
@@ -124,11 +126,13 @@ Result run(const Mesh& input, Scene& scene, double tolerance, const Decompositio
   const HullPromise promise(scene.outside, kCertainty * tolerance, settings.max_hull_vertices);
   Result result;
   result.parts = watch.time("parts", [&] {
-    if (settings.measure == ConcavityMeasure::valley) return valley_parts(scene, tolerance, thickness, settings, progress);
+    if (settings.measure == ConcavityMeasure::valley)
+      return valley_parts(scene, tolerance, thickness, settings, progress);
     return hull_decomposition(scene.mesh, scene.surface, scene.space, scene.outside, promise,
                               {.minimum_thickness = thickness, .max_hulls = settings.max_hulls}, progress);
   });
-  std::sort(result.parts.begin(), result.parts.end(), [](const HullPart& a, const HullPart& b) { return a.faces.front() < b.faces.front(); });
+  std::sort(result.parts.begin(), result.parts.end(),
+            [](const HullPart& a, const HullPart& b) { return a.faces.front() < b.faces.front(); });
   result.hulls = watch.time("hulls", [&] {
     std::vector<Mesh> hulls;
     for (const HullPart& part : result.parts) hulls.push_back(delivered_hull(input, scene, part, thickness, promise));
@@ -139,7 +143,8 @@ Result run(const Mesh& input, Scene& scene, double tolerance, const Decompositio
     for (std::size_t p = 0; p < result.parts.size(); ++p) {
       progress("measuring", static_cast<double>(p) / static_cast<double>(result.parts.size()));
       if (settings.measure == ConcavityMeasure::valley) {
-        concavity = std::max(concavity, find_bridges(part_graph(scene.mesh, result.parts[p].faces), scene.surface, tolerance).concavity);
+        concavity = std::max(
+            concavity, find_bridges(part_graph(scene.mesh, result.parts[p].faces), scene.surface, tolerance).concavity);
       } else {
         Mesh hull = result.hulls[p];
         hull.vertices = (hull.vertices.rowwise() - scene.sphere.centre) / scene.sphere.radius;
@@ -169,7 +174,9 @@ std::vector<int> majority(const Subdivision& cut, const std::vector<int>& cut_la
   }
   std::vector<int> labels;
   for (const auto& shares : area)
-    labels.push_back(std::max_element(shares.begin(), shares.end(), [](const auto& x, const auto& y) { return x.second < y.second; })->first);
+    labels.push_back(std::max_element(shares.begin(), shares.end(), [](const auto& x, const auto& y) {
+                       return x.second < y.second;
+                     })->first);
   return labels;
 }
 

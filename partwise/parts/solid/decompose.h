@@ -33,16 +33,16 @@ struct DecompositionSettings {
 };
 
 struct Decomposition {
-  std::vector<int> labels;      // of each input face, 0 .. parts - 1, parts in the order of their first face
-  std::vector<Mesh> hulls;      // one a part, vertices of their own
-  Mesh mesh;                    // what the parts are made of: the input, or the input with faces cut inside
-  std::vector<int> mesh_labels; // of each face of `mesh`
-  bool cut_inside = false;      // faces were cut inside: `mesh` differs from the input, labels are by majority of area
-  double radius = 0;            // R, model units
-  double tolerance = 0;         // in the unit that was asked for
-  double concavity = 0;         // largest of any part by the measure, in the unit that was asked for
-  double volume_ratio = 0;      // volume of the union of the hulls / volume of the mesh; not a number for an open mesh
-  bool watertight = false;      // closed: every edge is passed as often one way as the other
+  std::vector<int> labels;       // of each input face, 0 .. parts - 1, parts in the order of their first face
+  std::vector<Mesh> hulls;       // one a part, vertices of their own
+  Mesh mesh;                     // what the parts are made of: the input, or the input with faces cut inside
+  std::vector<int> mesh_labels;  // of each face of `mesh`
+  bool cut_inside = false;       // faces were cut inside: `mesh` differs from the input, labels are by majority of area
+  double radius = 0;             // R, model units
+  double tolerance = 0;          // in the unit that was asked for
+  double concavity = 0;          // largest of any part by the measure, in the unit that was asked for
+  double volume_ratio = 0;       // volume of the union of the hulls / volume of the mesh; not a number for an open mesh
+  bool watertight = false;       // closed: every edge is passed as often one way as the other
   std::map<std::string, double> seconds;  // wall time by stage
 
   int parts() const { return static_cast<int>(hulls.size()); }

@@ -12,25 +12,28 @@ namespace partwise {
 namespace {
 
 constexpr double kPieceTolerance = 0.35;  // of the tolerance: what pieces are cut to, so that merging has room
-// No merge takes in more air than this times the square of the tolerance (in R), as a share of the solid: where parts are
-// long and thin a hull can keep within the tolerance and yet be mostly air.
+// No merge takes in more air than this times the square of the tolerance (in R), as a share of the solid: where parts
+// are long and thin a hull can keep within the tolerance and yet be mostly air.
 constexpr double kLargestAir = 10;
 
 // Parts that break the promise once their hulls are simplified are cut until they keep it.
-void keep_promise(const Mesh& mesh, const HullPromise& promise, std::vector<HullPart>& parts, double minimum_thickness) {
+void keep_promise(const Mesh& mesh, const HullPromise& promise, std::vector<HullPart>& parts,
+                  double minimum_thickness) {
   for (std::size_t p = 0; p < parts.size();) {
     const Mesh hull = convex_hull(parts[p].corners, minimum_thickness).mesh;
     if (parts[p].faces.size() == 1 || promise.holds(hull)) {
       ++p;
       continue;
     }
-    std::vector<std::vector<int>> groups = split_by_plane(mesh, parts[p].faces, promise.reach(hull).where, minimum_thickness);
+    std::vector<std::vector<int>> groups =
+        split_by_plane(mesh, parts[p].faces, promise.reach(hull).where, minimum_thickness);
     if (groups.size() < 2) {
       groups.clear();
       for (int f : parts[p].faces) groups.push_back({f});
     }
     parts[p] = hull_part(mesh, std::move(groups.front()), minimum_thickness);
-    for (std::size_t g = 1; g < groups.size(); ++g) parts.push_back(hull_part(mesh, std::move(groups[g]), minimum_thickness));
+    for (std::size_t g = 1; g < groups.size(); ++g)
+      parts.push_back(hull_part(mesh, std::move(groups[g]), minimum_thickness));
   }
 }
 
@@ -68,7 +71,8 @@ std::vector<HullPart> hull_decomposition(const Mesh& mesh, const SurfaceQuery& s
     keep_promise(mesh, promise, parts, settings.minimum_thickness);
   }
   fill_interior(space, parts, promise, settings.minimum_thickness);
-  if (settings.max_hulls > 0) merge_down_to(settings.max_hulls, mesh, space, parts, settings.minimum_thickness, progress);
+  if (settings.max_hulls > 0)
+    merge_down_to(settings.max_hulls, mesh, space, parts, settings.minimum_thickness, progress);
   return parts;
 }
 

@@ -1,5 +1,5 @@
-// The promise of the `hull` measure, for a hull as it will be delivered: simplified from outside to the number of vertices
-// that was asked for, it still stays within the tolerance of the solid.
+// The promise of the `hull` measure, for a hull as it will be delivered: simplified from outside to the number of
+// vertices that was asked for, it still stays within the tolerance of the solid.
 #pragma once
 
 #include "partwise/parts/solid/outside_distance.h"

@@ -1,8 +1,8 @@
 #include "partwise/parts/solid/hull_splitting.h"
 
+#include <tbb/parallel_for.h>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -23,7 +23,8 @@ struct Centroids {
 };
 
 Centroids centroids(const Mesh& mesh, const std::vector<int>& faces) {
-  Centroids c{Vertices(static_cast<Eigen::Index>(faces.size()), 3), Eigen::VectorXd(static_cast<Eigen::Index>(faces.size()))};
+  Centroids c{Vertices(static_cast<Eigen::Index>(faces.size()), 3),
+              Eigen::VectorXd(static_cast<Eigen::Index>(faces.size()))};
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const Point p = mesh.vertices.row(mesh.faces(faces[i], 0)), q = mesh.vertices.row(mesh.faces(faces[i], 1)),
                 r = mesh.vertices.row(mesh.faces(faces[i], 2));
@@ -68,11 +69,13 @@ std::vector<std::vector<int>> split_by_plane(const Mesh& mesh, const std::vector
     for (const auto& half : side)
       trials[t].volume += convex_hull(extreme_points(corners_of(mesh, half)), minimum_thickness).volume;
   });
-  const Trial& best = *std::min_element(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) { return a.volume < b.volume; });
+  const Trial& best = *std::min_element(trials.begin(), trials.end(),
+                                        [](const Trial& a, const Trial& b) { return a.volume < b.volume; });
   if (best.volume == std::numeric_limits<double>::infinity()) {
     // The tip of a simplified hull can lie so far out that no plane through it meets the part: then through its middle.
     const Point middle = c.at.colwise().mean();
-    return through == middle ? std::vector<std::vector<int>>{faces} : split_by_plane(mesh, faces, middle, minimum_thickness);
+    return through == middle ? std::vector<std::vector<int>>{faces}
+                             : split_by_plane(mesh, faces, middle, minimum_thickness);
   }
   std::vector<std::vector<int>> pieces = connected_groups(mesh, best.side[0]);
   for (auto& group : connected_groups(mesh, best.side[1])) pieces.push_back(std::move(group));

@@ -24,8 +24,8 @@ std::vector<HullPart> split_to_tolerance(const Mesh& mesh, const SurfaceQuery& s
                                          std::vector<int> faces, const SplittingSettings& settings,
                                          const Progress& progress);
 
-// The two sides of the best plane through the part's faces (by their centroids), each in its connected pieces; one piece
-// if no plane separates them.
+// The two sides of the best plane through the part's faces (by their centroids), each in its connected pieces; one
+// piece if no plane separates them.
 std::vector<std::vector<int>> split_by_plane(const Mesh& mesh, const std::vector<int>& faces, const Point& through,
                                              double minimum_thickness);
 

@@ -8,7 +8,7 @@ namespace partwise {
 namespace {
 
 const double kHalfDiagonal = std::sqrt(3.0);  // of a cube with half side 1
-constexpr double kRoom = 4;  // times the radius: simplified hulls reach outside the ball of the solid
+constexpr double kRoom = 4;                   // times the radius: simplified hulls reach outside the ball of the solid
 
 // Corner k of the eight: the sign of each coordinate from a bit.
 Point corner(int k) { return {k & 1 ? 1.0 : -1.0, k & 2 ? 1.0 : -1.0, k & 4 ? 1.0 : -1.0}; }
@@ -59,8 +59,9 @@ struct OutsideDistance::Visit {
   const ConvexBody& body;
   double tolerance;
 
-  // Whether the body meets, in this cube, a point that may be farther than the tolerance. The planes that cut the parent
-  // are active_[first, last). cube -1: inside a cube that is too far as a whole, nothing more to ask of distances.
+  // Whether the body meets, in this cube, a point that may be farther than the tolerance. The planes that cut the
+  // parent are active_[first, last). cube -1: inside a cube that is too far as a whole, nothing more to ask of
+  // distances.
   bool too_far(std::int32_t cube, const Point& centre, double half, int depth, std::size_t first, std::size_t last) {
     bool all_far = cube < 0;
     double value = 0;

@@ -1,12 +1,11 @@
 // How far a convex body reaches outside a solid: the `hull` measure of concavity, certified rather than sampled.
 //
-// The distance to the solid (0 inside it) changes by at most the length of a step, so its value s at the centre of a cube
-// bounds it over the whole cube by s + r, r half the cube's diagonal. An octree over space keeps these values, made when
-// first asked for; a body is within tolerance when every cube that it meets is bounded by it. Cubes that straddle
-// the bound are split down to the resolution and then counted against the body: what is certified holds, what is refused
-// may have been fine by twice the diagonal of the smallest cube.
-// An open surface has no inside: the distance is to the surface.
-// Not thread-safe: queries fill the octree.
+// The distance to the solid (0 inside it) changes by at most the length of a step, so its value s at the centre of a
+// cube bounds it over the whole cube by s + r, r half the cube's diagonal. An octree over space keeps these values,
+// made when first asked for; a body is within tolerance when every cube that it meets is bounded by it. Cubes that
+// straddle the bound are split down to the resolution and then counted against the body: what is certified holds, what
+// is refused may have been fine by twice the diagonal of the smallest cube. An open surface has no inside: the distance
+// is to the surface. Not thread-safe: queries fill the octree.
 #pragma once
 
 #include <cstdint>
@@ -28,14 +27,15 @@ struct ConvexBody {
 class OutsideDistance {
  public:
   // `box` bounds the solid. Of bodies that reach farther from its centre than four times its radius less is known: only
-  // that no point of them is farther outside than a corner of their box can be. `resolution`: side of the smallest cubes, model units.
+  // that no point of them is farther outside than a corner of their box can be. `resolution`: side of the smallest
+  // cubes, model units.
   OutsideDistance(const SurfaceQuery& surface, bool closed, const Sphere& box, double resolution);
 
   // Whether no point of the body is farther outside than the tolerance.
   bool within(const ConvexBody& body, double tolerance);
 
-  // An upper bound of the largest distance outside that is reached, too large by at most `accuracy` or the diagonal of a
-  // smallest cube, whichever is more, and a point of the body (to the same accuracy) where it is nearly reached.
+  // An upper bound of the largest distance outside that is reached, too large by at most `accuracy` or the diagonal of
+  // a smallest cube, whichever is more, and a point of the body (to the same accuracy) where it is nearly reached.
   struct Reach {
     double distance = 0;
     Point where = Point::Zero();

@@ -14,7 +14,9 @@ namespace {
 struct Stars {
   std::vector<int> first, faces;
 
-  explicit Stars(const Mesh& mesh) : first(static_cast<std::size_t>(mesh.vertices.rows()) + 1, 0), faces(static_cast<std::size_t>(mesh.faces.size())) {
+  explicit Stars(const Mesh& mesh)
+      : first(static_cast<std::size_t>(mesh.vertices.rows()) + 1, 0),
+        faces(static_cast<std::size_t>(mesh.faces.size())) {
     for (int v : mesh.faces.reshaped()) ++first[v + 1];
     std::partial_sum(first.begin(), first.end(), first.begin());
     std::vector<int> next(first.begin(), first.end() - 1);
@@ -50,7 +52,8 @@ bool absorb_faces(const Mesh& mesh, std::vector<HullPart>& parts, double minimum
     const auto inside = [&](int v) {
       if (vertex_seen[v] != p) {
         vertex_seen[v] = p;
-        vertex_inside[v] = ((planes.leftCols<3>() * mesh.vertices.row(v).transpose()).array() <= planes.col(3).array()).all();
+        vertex_inside[v] =
+            ((planes.leftCols<3>() * mesh.vertices.row(v).transpose()).array() <= planes.col(3).array()).all();
       }
       return vertex_inside[v] != 0;
     };
@@ -75,7 +78,8 @@ bool absorb_faces(const Mesh& mesh, std::vector<HullPart>& parts, double minimum
     for (auto& [donor, faces] : offered) {
       std::sort(faces.begin(), faces.end());
       std::vector<int> rest, all = parts[p].faces;
-      std::set_difference(parts[donor].faces.begin(), parts[donor].faces.end(), faces.begin(), faces.end(), std::back_inserter(rest));
+      std::set_difference(parts[donor].faces.begin(), parts[donor].faces.end(), faces.begin(), faces.end(),
+                          std::back_inserter(rest));
       all.insert(all.end(), faces.begin(), faces.end());
       std::sort(all.begin(), all.end());
       if (!rest.empty() && connected_groups(mesh, rest).size() > 1) continue;
@@ -94,7 +98,8 @@ bool absorb_faces(const Mesh& mesh, std::vector<HullPart>& parts, double minimum
 void fill_interior(const SpaceSamples& space, std::vector<HullPart>& parts, const HullPromise& promise,
                    double minimum_thickness) {
   constexpr std::size_t kTries = 8;
-  std::vector<char> covered(static_cast<std::size_t>(space.solid.rows()), 0), air(static_cast<std::size_t>(space.air.rows()), 0);
+  std::vector<char> covered(static_cast<std::size_t>(space.solid.rows()), 0),
+      air(static_cast<std::size_t>(space.air.rows()), 0);
   std::vector<Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>> planes(parts.size());
   const auto enter = [&](std::size_t p, const Mesh& hull) {
     planes[p] = hull_planes(hull);

@@ -58,9 +58,8 @@ PartGraph part_graph(const Mesh& mesh, std::span<const int> faces) {
     }
     part.corners.push_back(c);
   }
-  std::sort(half_edges.begin(), half_edges.end(), [](const HalfEdge& x, const HalfEdge& y) {
-    return x.ends != y.ends ? x.ends < y.ends : x.face < y.face;
-  });
+  std::sort(half_edges.begin(), half_edges.end(),
+            [](const HalfEdge& x, const HalfEdge& y) { return x.ends != y.ends ? x.ends < y.ends : x.face < y.face; });
 
   struct Link {
     int a, b;
@@ -77,7 +76,8 @@ PartGraph part_graph(const Mesh& mesh, std::span<const int> faces) {
       if (e.face == next.face) continue;
       part.shared.push_back({e.face, next.face, a, b});
       if (e.opposite == next.opposite) continue;
-      const auto diagonal = unfolded_diagonal(pa, pb, part.positions.row(e.opposite), part.positions.row(next.opposite));
+      const auto diagonal =
+          unfolded_diagonal(pa, pb, part.positions.row(e.opposite), part.positions.row(next.opposite));
       if (diagonal) links.push_back({e.opposite, next.opposite, *diagonal});
     }
   }

@@ -1,8 +1,9 @@
 // A part of a mesh, some of its faces, with the graphs that convex ridge separation walks on.
 //
-// Vertices and faces are numbered anew from 0 (local), in ascending order of their number in the mesh (global). Paths run
-// over the edges of the part and over the straight lines between the two corners opposite an edge, where the two faces
-// unfolded into a plane form a convex quadrilateral: twice the directions, so that a path strays less from the geodesic.
+// Vertices and faces are numbered anew from 0 (local), in ascending order of their number in the mesh (global). Paths
+// run over the edges of the part and over the straight lines between the two corners opposite an edge, where the two
+// faces unfolded into a plane form a convex quadrilateral: twice the directions, so that a path strays less from the
+// geodesic.
 #pragma once
 
 #include <array>
@@ -14,9 +15,9 @@
 namespace partwise {
 
 struct PartGraph {
-  std::vector<int> vertices;              // global number of each local vertex
-  std::vector<int> faces;                 // global number of each local face
-  Vertices positions;                     // of the local vertices
+  std::vector<int> vertices;                // global number of each local vertex
+  std::vector<int> faces;                   // global number of each local face
+  Vertices positions;                       // of the local vertices
   std::vector<std::array<int, 3>> corners;  // local vertices of each local face
 
   // Neighbours of local vertex v: neighbour[i], length[i] for i in [first[v], first[v + 1]).
@@ -40,7 +41,8 @@ PartGraph part_graph(const Mesh& mesh, std::span<const int> faces);
 // Shortest paths in a part's graph (Dijkstra 1959, with a binary heap). Keeps its arrays from one search to the next.
 class PathSearch {
  public:
-  explicit PathSearch(const PartGraph& graph) : graph_(graph), distance_(graph.first.size()), previous_(graph.first.size()), seen_(graph.first.size(), 0) {}
+  explicit PathSearch(const PartGraph& graph)
+      : graph_(graph), distance_(graph.first.size()), previous_(graph.first.size()), seen_(graph.first.size(), 0) {}
 
   // Length of the shortest path from a to b if it is at most `at_most`, else infinity. Looks only where a path of
   // that length can pass: d(a, v) + |v b| <= at_most.

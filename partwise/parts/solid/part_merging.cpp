@@ -118,7 +118,8 @@ bool PartMerging::joined(const HullPart& a, const HullPart& b, HullPart& result)
   if (!accept_(a, b, hull.mesh)) return false;
   std::vector<int> faces(a.faces.size() + b.faces.size());
   std::merge(a.faces.begin(), a.faces.end(), b.faces.begin(), b.faces.end(), faces.begin());
-  result = {std::move(faces), hull.mesh.vertices, extreme_points(hull.mesh.vertices), hull.volume, stacked(a.inner, b.inner)};
+  result = {std::move(faces), hull.mesh.vertices, extreme_points(hull.mesh.vertices), hull.volume,
+            stacked(a.inner, b.inner)};
   return true;
 }
 
@@ -127,7 +128,8 @@ void PartMerging::replace(int part, HullPart body) {
   for (int i : p.air) --covered_[i];
   p.body = std::move(body);
   p.air.clear();
-  if (!p.body.faces.empty()) p.air = points_inside(space_.air, convex_hull(p.body.corners, settings_.minimum_thickness).mesh);
+  if (!p.body.faces.empty())
+    p.air = points_inside(space_.air, convex_hull(p.body.corners, settings_.minimum_thickness).mesh);
   for (int i : p.air) ++covered_[i];
   ++p.version;
 }
@@ -156,10 +158,11 @@ void PartMerging::connect_all() {
     if (a > 0) link(a - 1, a);  // A chain through all: nothing stays apart.
     std::iota(order.begin(), order.end(), 0);
     const std::size_t nearest = std::min(kNearest, order.size());
-    std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(nearest), order.end(), [&](int x, int y) {
-      const double dx = (centre[x] - centre[a]).squaredNorm(), dy = (centre[y] - centre[a]).squaredNorm();
-      return dx != dy ? dx < dy : x < y;
-    });
+    std::partial_sort(
+        order.begin(), order.begin() + static_cast<std::ptrdiff_t>(nearest), order.end(), [&](int x, int y) {
+          const double dx = (centre[x] - centre[a]).squaredNorm(), dy = (centre[y] - centre[a]).squaredNorm();
+          return dx != dy ? dx < dy : x < y;
+        });
     for (std::size_t i = 0; i < nearest; ++i)
       if (order[i] != a) link(a, order[i]);
   }
@@ -170,7 +173,8 @@ void PartMerging::connect_all() {
 }
 
 void PartMerging::merge(const Progress& progress, int at_least) {
-  auto count = static_cast<int>(std::count_if(parts_.begin(), parts_.end(), [](const Part& p) { return !p.pieces.empty(); }));
+  auto count =
+      static_cast<int>(std::count_if(parts_.begin(), parts_.end(), [](const Part& p) { return !p.pieces.empty(); }));
   struct Candidate {
     double cost;
     int a, b, version_a, version_b;
@@ -240,7 +244,8 @@ bool PartMerging::dissolve_part(int part) {
       for (int other : piece_neighbours_[piece]) {
         const auto moved = goes_to.find(other);
         const int owner = moved != goes_to.end() ? moved->second : part_of_[other];
-        if (owner != part && !refused.count({piece, owner}) && !parts_[owner].refused_pieces.count(piece)) beside.insert(owner);
+        if (owner != part && !refused.count({piece, owner}) && !parts_[owner].refused_pieces.count(piece))
+          beside.insert(owner);
       }
       for (int p : beside) growths.push_back({0, piece, p});
     }
@@ -281,7 +286,8 @@ int PartMerging::dissolve(const Progress& progress) {
   std::vector<int> order;
   for (int p = 0; p < static_cast<int>(parts_.size()); ++p)
     if (!parts_[p].pieces.empty() && parts_[p].pieces.size() <= kMostPiecesToDissolve) order.push_back(p);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return parts_[a].body.volume < parts_[b].body.volume; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return parts_[a].body.volume < parts_[b].body.volume; });
   int gone = 0;
   for (std::size_t i = 0; i < order.size(); ++i) {
     progress("dissolving", static_cast<double>(i) / static_cast<double>(order.size()));

@@ -1,6 +1,6 @@
 // Fewer parts, from pieces that are small enough: neighbours are merged, the pair whose common hull takes in the least
-// air first, as long as the merged part keeps its promise. Then parts are dissolved: the pieces of one are handed to its
-// neighbours, if every one of them can take its share and keep its promise.
+// air first, as long as the merged part keeps its promise. Then parts are dissolved: the pieces of one are handed to
+// its neighbours, if every one of them can take its share and keep its promise.
 //
 // A part's promise is what `accept` says: for the `hull` measure that the hull stays within the tolerance of the solid,
 // for `valley` that no valley of the part is deep.
@@ -61,8 +61,8 @@ class PartMerging {
   struct Part {
     HullPart body;
     std::vector<int> pieces;
-    std::vector<int> air;  // the sample points in the hull
-    int version = 0;       // counts its changes
+    std::vector<int> air;          // the sample points in the hull
+    int version = 0;               // counts its changes
     std::set<int> refused;         // parts that it may not be merged with; what grows stays refused
     std::set<int> refused_pieces;  // pieces of others that it may not take
   };

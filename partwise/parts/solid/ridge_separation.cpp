@@ -98,12 +98,13 @@ void minimal_cut(const PartGraph& part, const std::vector<double>& costs, const 
   std::vector<boost::default_color_type> colour(static_cast<std::size_t>(nodes), boost::white_color);
   std::vector<long> depth(static_cast<std::size_t>(nodes));
   const auto vertex_index = boost::get(boost::vertex_index, graph);
-  boost::boykov_kolmogorov_max_flow(
-      graph, boost::make_iterator_property_map(capacity.begin(), index),
-      boost::make_iterator_property_map(residual.begin(), index), boost::make_iterator_property_map(reverse.begin(), index),
-      boost::make_iterator_property_map(predecessor.begin(), vertex_index),
-      boost::make_iterator_property_map(colour.begin(), vertex_index),
-      boost::make_iterator_property_map(depth.begin(), vertex_index), vertex_index, kSource, kSink);
+  boost::boykov_kolmogorov_max_flow(graph, boost::make_iterator_property_map(capacity.begin(), index),
+                                    boost::make_iterator_property_map(residual.begin(), index),
+                                    boost::make_iterator_property_map(reverse.begin(), index),
+                                    boost::make_iterator_property_map(predecessor.begin(), vertex_index),
+                                    boost::make_iterator_property_map(colour.begin(), vertex_index),
+                                    boost::make_iterator_property_map(depth.begin(), vertex_index), vertex_index,
+                                    kSource, kSink);
   for (std::size_t f = 0; f < side.size(); ++f) {
     if (ignore[f]) continue;
     side[f] = node[f] == kSource || (node[f] > 1 && colour[node[f]] == boost::black_color) ? 1 : -1;
@@ -113,7 +114,8 @@ void minimal_cut(const PartGraph& part, const std::vector<double>& costs, const 
 namespace {
 
 // claim[f]: the one ridge that face f must stay with, -1 where fuzzy.
-std::vector<int> must_link(const PartGraph& part, const Bridges& bridges, const ConvexRidges& ridges, double tolerance) {
+std::vector<int> must_link(const PartGraph& part, const Bridges& bridges, const ConvexRidges& ridges,
+                           double tolerance) {
   constexpr int kFuzzy = -1, kContested = -2;
   std::vector<std::vector<std::pair<int, double>>> reach(ridges.members.size());
   for (const Valley& valley : bridges.deep) {

@@ -2,9 +2,10 @@
 //
 // Every ridge claims the faces within reach of the ends of its deep valleys, the reach being the path to the valley's
 // separator (potential region, 2.9). What two ridges claim is nobody's (2.10); the rest of a claim must stay with its
-// ridge (2.11), all other faces are fuzzy (2.12). Then n - 1 minimal cuts, the ridge with the smallest bounding box first,
-// each separating one ridge's faces from those of all ridges still to come, over the faces that no earlier cut took. An
-// edge costs 0.8 Theta / mean Theta + 0.2 length / mean length, Theta 0.3 where concave and 1 where convex (2.13).
+// ridge (2.11), all other faces are fuzzy (2.12). Then n - 1 minimal cuts, the ridge with the smallest bounding box
+// first, each separating one ridge's faces from those of all ridges still to come, over the faces that no earlier cut
+// took. An edge costs 0.8 Theta / mean Theta + 0.2 length / mean length, Theta 0.3 where concave and 1 where convex
+// (2.13).
 #pragma once
 
 #include <vector>

@@ -47,11 +47,13 @@ SpaceSamples sample_space(const SurfaceQuery& surface, bool closed, const Mesh& 
   const int draws = static_cast<int>(std::min(count / std::max(filled, 0.01), 100.0 * count));
   Vertices drawn(draws, 3);
   for (int i = 0; i < draws; ++i)
-    drawn.row(i) = low + size.cwiseProduct(Point(radical_inverse(2, i + 1), radical_inverse(3, i + 1), radical_inverse(5, i + 1)));
+    drawn.row(i) =
+        low + size.cwiseProduct(Point(radical_inverse(2, i + 1), radical_inverse(3, i + 1), radical_inverse(5, i + 1)));
   const std::vector<int> inside = points_inside(drawn, hull);
   std::vector<char> in_solid(inside.size(), 0);
   if (closed) {
-    tbb::parallel_for(std::size_t{0}, inside.size(), [&](std::size_t i) { in_solid[i] = surface.contains(drawn.row(inside[i])); });
+    tbb::parallel_for(std::size_t{0}, inside.size(),
+                      [&](std::size_t i) { in_solid[i] = surface.contains(drawn.row(inside[i])); });
   }
   std::vector<int> air, solid;
   for (std::size_t i = 0; i < inside.size(); ++i) (in_solid[i] ? solid : air).push_back(inside[i]);

@@ -29,8 +29,8 @@ class DisjointSets {
   std::vector<int> parent_;
 };
 
-// Numbers the pieces of each label that hang together by edges; a piece without a vertex of its ridge joins the piece with
-// which it shares the longest border. Returns the piece of each local face.
+// Numbers the pieces of each label that hang together by edges; a piece without a vertex of its ridge joins the piece
+// with which it shares the longest border. Returns the piece of each local face.
 std::vector<int> pieces(const PartGraph& part, const ConvexRidges& ridges, const std::vector<int>& label) {
   DisjointSets sets(label.size());
   for (const auto& e : part.shared)
@@ -89,7 +89,8 @@ std::vector<std::vector<int>> connected_groups(const Mesh& mesh, const std::vect
 namespace {
 
 // The pieces of a part with deep valleys, cut between its ridges; the part itself where no cut was found.
-std::vector<std::vector<int>> separate(const Mesh& mesh, const PartGraph& part, const Bridges& bridges, double tolerance) {
+std::vector<std::vector<int>> separate(const Mesh& mesh, const PartGraph& part, const Bridges& bridges,
+                                       double tolerance) {
   const ConvexRidges ridges = convex_ridges(part, bridges);
   const std::vector<int> piece = pieces(part, ridges, separate_ridges(part, bridges, ridges, tolerance));
   std::map<int, std::vector<int>> by_piece;
@@ -108,8 +109,8 @@ double deepest(const std::vector<Valley>& valleys) {
 
 }  // namespace
 
-std::vector<std::vector<int>> separate_once(const Mesh& mesh, const SurfaceQuery& surface, const std::vector<int>& faces,
-                                            double tolerance, double* concavity) {
+std::vector<std::vector<int>> separate_once(const Mesh& mesh, const SurfaceQuery& surface,
+                                            const std::vector<int>& faces, double tolerance, double* concavity) {
   const PartGraph part = part_graph(mesh, faces);
   Bridges bridges = find_bridges(part, surface, tolerance);
   if (concavity) *concavity = bridges.concavity;
@@ -119,7 +120,8 @@ std::vector<std::vector<int>> separate_once(const Mesh& mesh, const SurfaceQuery
   const double before = deepest(bridges.rims);
   bridges.deep = std::move(bridges.rims);
   std::vector<std::vector<int>> groups = separate(mesh, part, bridges, tolerance);
-  const auto largest = std::max_element(groups.begin(), groups.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
+  const auto largest =
+      std::max_element(groups.begin(), groups.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
   const Bridges after = find_bridges(part_graph(mesh, *largest), surface, tolerance);
   if (std::max(after.concavity, deepest(after.rims)) > kConcavityLeft * before) return {faces};
   return groups;
@@ -144,7 +146,8 @@ std::vector<ValleyPart> valley_decomposition(const Mesh& mesh, const SurfaceQuer
       done.push_back({std::move(current), concavity});
     }
   }
-  std::sort(done.begin(), done.end(), [](const ValleyPart& a, const ValleyPart& b) { return a.faces.front() < b.faces.front(); });
+  std::sort(done.begin(), done.end(),
+            [](const ValleyPart& a, const ValleyPart& b) { return a.faces.front() < b.faces.front(); });
   return done;
 }
 

@@ -1,4 +1,5 @@
-// CoRiSE as printed: bridges, ridges, separation, repeated on every part until no valley is deep (Liu 2017, section 2.4).
+// CoRiSE as printed: bridges, ridges, separation, repeated on every part until no valley is deep (Liu 2017,
+// section 2.4).
 #pragma once
 
 #include <vector>
@@ -16,8 +17,9 @@ std::vector<std::vector<int>> connected_groups(const Mesh& mesh, const std::vect
 // where no valley is deep or no cut was found. Where only rims are deep (valleys that run on the hull), the pieces are
 // taken only if the largest is less concave than the whole was; else cutting would nibble at the rim of a cup for ever.
 // `concavity`, if given, becomes that of the whole.
-std::vector<std::vector<int>> separate_once(const Mesh& mesh, const SurfaceQuery& surface, const std::vector<int>& faces,
-                                            double tolerance, double* concavity = nullptr);
+std::vector<std::vector<int>> separate_once(const Mesh& mesh, const SurfaceQuery& surface,
+                                            const std::vector<int>& faces, double tolerance,
+                                            double* concavity = nullptr);
 
 struct ValleyPart {
   std::vector<int> faces;  // global, ascending
