@@ -24,6 +24,7 @@ constexpr double kSmallestTolerance = 1e-3;   // of R: the octree of distances w
 constexpr double kLargestThickness = 1e-3;    // of R: what flat hulls are given, or a tenth of the tolerance if less
 constexpr double kSmallestCube = 1.0 / 32;    // of the tolerance: side of the smallest cubes of the octree
 constexpr double kCertainty = 1 - 1e-4;       // of the tolerance: room for distances in single precision
+constexpr double kMeasureAccuracy = 0.25;     // of the tolerance: of the concavity that is reported
 constexpr int kSamples = 6000;                // of the space in the convex hull
 constexpr double kCoarseEdge = 0.5;           // of the tolerance: longest edge of a mesh whose faces are cut inside
 constexpr int kCoarseFaces = 5000;            // meshes with more faces are not cut inside
@@ -143,7 +144,11 @@ Result run(const Mesh& input, Scene& scene, double tolerance, const Decompositio
       } else {
         Mesh hull = result.hulls[p];
         hull.vertices = (hull.vertices.rowwise() - scene.sphere.centre) / scene.sphere.radius;
-        concavity = std::max(concavity, scene.outside.reach(ConvexBody(hull)).distance);
+        // Roughly: where a hull lies on the surface, every cube along it would be looked at down to the smallest.
+        const ConvexBody body(hull);
+        double reach = scene.outside.reach(body, kMeasureAccuracy * tolerance).distance;
+        if (reach > tolerance && scene.outside.within(body, tolerance)) reach = tolerance;
+        concavity = std::max(concavity, reach);
       }
     }
     return concavity;
