@@ -29,12 +29,13 @@ double extent(const Vertices& points, const Eigen::Vector3d& axis) {
   return along.maxCoeff() - along.minCoeff();
 }
 
-// Doubles the points along every principal axis in which they are thinner than the minimum.
+// Doubles the points along every principal axis in which they are thinner than the minimum, and along the thinnest in any
+// case: Qhull may have found no volume in a set that is a little thicker.
 Vertices thicken(const Vertices& points, double minimum_thickness) {
   const Eigen::Matrix3d axes = principal_axes(points);
   Vertices thick = points;
   for (int k = 0; k < 3; ++k) {
-    if (extent(points, axes.col(k)) >= minimum_thickness) continue;
+    if (k > 0 && extent(points, axes.col(k)) >= minimum_thickness) continue;
     const Point shift = axes.col(k).transpose() * (minimum_thickness / 2);
     Vertices doubled(2 * thick.rows(), 3);
     doubled << thick.rowwise() - shift, thick.rowwise() + shift;

@@ -24,6 +24,7 @@ constexpr double kSmallestTolerance = 1e-3;  // of R: the octree of distances wo
 constexpr double kLargestThickness = 1e-3;   // of R: what flat hulls are given, or a tenth of the tolerance if less
 constexpr double kSmallestCube = 1.0 / 32;   // of the tolerance: side of the smallest cubes of the octree
 constexpr double kCertainty = 1 - 1e-4;      // of the tolerance: room for distances in single precision
+constexpr double kMeasureAccuracy = 0.25;    // of the tolerance: of the concavity that is reported
 constexpr int kSamples = 6000;               // of the space in the convex hull
 constexpr double kCoarseEdge = 0.5;          // of the tolerance: longest edge of a mesh whose faces are cut inside
 constexpr int kCoarseFaces = 5000;           // meshes with more faces are not cut inside
@@ -105,18 +106,40 @@ std::vector<HullPart> valley_parts(const Scene& scene, double tolerance, double 
   return parts;
 }
 
-// The hull of a part in model units: of the very vertices of the input, so that none is outside by rounding.
-Mesh delivered_hull(const Mesh& input, const Scene& scene, const HullPart& part, double thickness,
-                    const HullPromise& promise) {
-  const Vertices own = corners_of(input, part.faces);
-  Vertices points(own.rows() + part.inner.rows(), 3);
-  points << own, (part.inner * scene.sphere.radius).rowwise() + scene.sphere.centre;
-  return promise.shape(convex_hull(points, thickness * scene.sphere.radius).mesh);
+// The hull of a part as delivered, of the scaled mesh and in model units. It is made from the scaled vertices, the very
+// ones that the promise was tested on; where it is not simplified, its vertices in model units are those of the input.
+struct DeliveredHull {
+  Mesh scaled, hull;
+};
+
+DeliveredHull delivered_hull(const Mesh& input, const Scene& scene, const HullPart& part, double thickness,
+                             const HullPromise& promise) {
+  const auto to_model = [&](const Vertices& v) -> Vertices {
+    return (v * scene.sphere.radius).rowwise() + scene.sphere.centre;
+  };
+  DeliveredHull delivered;
+  const Mesh exact = convex_hull(part.corners, thickness).mesh;
+  delivered.scaled = promise.shape(exact);
+  if (delivered.scaled.vertices.rows() < exact.vertices.rows()) {
+    delivered.hull = {to_model(delivered.scaled.vertices), delivered.scaled.faces};
+    return delivered;
+  }
+  const auto stack = [&](const Vertices& own, const Vertices& inner) {
+    Vertices points(own.rows() + inner.rows(), 3);
+    points << own, inner;
+    return points;
+  };
+  const ConvexHull hull = convex_hull(stack(corners_of(scene.mesh, part.faces), part.inner), thickness);
+  delivered.scaled = hull.mesh;
+  const Vertices model = stack(corners_of(input, part.faces), to_model(part.inner));
+  delivered.hull = {hull.thickened ? to_model(hull.mesh.vertices) : Vertices(model(hull.source, Eigen::all)),
+                    hull.mesh.faces};
+  return delivered;
 }
 
 struct Result {
   std::vector<HullPart> parts;
-  std::vector<Mesh> hulls;
+  std::vector<DeliveredHull> hulls;
   double concavity = 0;  // of the scaled mesh
 };
 
@@ -134,7 +157,7 @@ Result run(const Mesh& input, Scene& scene, double tolerance, const Decompositio
   std::sort(result.parts.begin(), result.parts.end(),
             [](const HullPart& a, const HullPart& b) { return a.faces.front() < b.faces.front(); });
   result.hulls = watch.time("hulls", [&] {
-    std::vector<Mesh> hulls;
+    std::vector<DeliveredHull> hulls;
     for (const HullPart& part : result.parts) hulls.push_back(delivered_hull(input, scene, part, thickness, promise));
     return hulls;
   });
@@ -146,9 +169,11 @@ Result run(const Mesh& input, Scene& scene, double tolerance, const Decompositio
         concavity = std::max(
             concavity, find_bridges(part_graph(scene.mesh, result.parts[p].faces), scene.surface, tolerance).concavity);
       } else {
-        Mesh hull = result.hulls[p];
-        hull.vertices = (hull.vertices.rowwise() - scene.sphere.centre) / scene.sphere.radius;
-        concavity = std::max(concavity, scene.outside.reach(ConvexBody(hull)).distance);
+        // Roughly: where a hull lies on the surface, every cube along it would be looked at down to the smallest.
+        const ConvexBody body(result.hulls[p].scaled);
+        double reach = scene.outside.reach(body, kMeasureAccuracy * tolerance).distance;
+        if (reach > tolerance && scene.outside.within(body, tolerance)) reach = tolerance;
+        concavity = std::max(concavity, reach);
       }
     }
     return concavity;
@@ -224,14 +249,14 @@ Decomposition decompose(const Mesh& mesh, const DecompositionSettings& settings,
       result.labels = majority(cut, result.mesh_labels, mesh.faces.rows());
     }
   }
-  result.hulls = std::move(best.hulls);
+  for (const DeliveredHull& hull : best.hulls) result.hulls.push_back(hull.hull);
   result.concavity = best.concavity * (settings.absolute ? sphere.radius : 1);
   result.watertight = scene->closed;
   result.volume_ratio = watch.time("volume", [&] {
     if (!result.watertight) return std::numeric_limits<double>::quiet_NaN();
-    const Coverage volumes = coverage(scene->mesh, {});
-    const double unit = std::pow(sphere.radius, 3);
-    return union_volume(result.hulls) / (volumes.solid_volume * unit);
+    std::vector<Mesh> scaled;
+    for (const DeliveredHull& hull : best.hulls) scaled.push_back(hull.scaled);
+    return union_volume(scaled) / coverage(scene->mesh, {}).solid_volume;
   });
   return result;
 }

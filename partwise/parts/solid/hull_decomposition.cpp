@@ -71,6 +71,7 @@ std::vector<HullPart> hull_decomposition(const Mesh& mesh, const SurfaceQuery& s
     keep_promise(mesh, promise, parts, settings.minimum_thickness);
   }
   fill_interior(space, parts, promise, settings.minimum_thickness);
+  keep_promise(mesh, promise, parts, settings.minimum_thickness);
   if (settings.max_hulls > 0)
     merge_down_to(settings.max_hulls, mesh, space, parts, settings.minimum_thickness, progress);
   return parts;
