@@ -44,6 +44,7 @@ class Corpus(unittest.TestCase):
             self.assertEqual(result.stdout, "")
             self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
             self.assertIn(expected, result.stderr)
+            self.assertIn(mesh.name, result.stderr)
             self.assertEqual(left, set())
 
 

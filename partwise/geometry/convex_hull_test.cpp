@@ -35,7 +35,8 @@ ConvexHull checked_hull(const Vertices& points, double minimum_thickness) {
   EXPECT_DOUBLE_EQ(hull.volume, signed_volume(hull.mesh));
   if (hull.thickened) {
     EXPECT_EQ(hull.source.size(), static_cast<std::size_t>(hull.mesh.vertices.rows()));
-    for (int v : hull.source) EXPECT_TRUE(v >= 0 && v < points.rows());
+    const double moved = (hull.mesh.vertices - Vertices(points(hull.source, Eigen::all))).rowwise().norm().maxCoeff();
+    EXPECT_LE(moved, 2 * minimum_thickness);
   } else {
     EXPECT_TRUE(std::ranges::is_sorted(hull.source));
     EXPECT_EQ(hull.mesh.vertices, Vertices(points(hull.source, Eigen::all)));

@@ -20,14 +20,14 @@
 namespace partwise {
 namespace {
 
-constexpr double kSmallestTolerance = 1e-3;  // of R: the octree of distances would not end
-constexpr double kLargestThickness = 1e-3;   // of R: what flat hulls are given, or a tenth of the tolerance if less
-constexpr double kSmallestCube = 1.0 / 32;   // of the tolerance: side of the smallest cubes of the octree
-constexpr double kCertainty = 1 - 1e-4;      // of the tolerance: room for distances in single precision
-constexpr double kMeasureAccuracy = 0.25;    // of the tolerance: of the concavity that is reported
-constexpr int kSamples = 6000;               // of the space in the convex hull
-constexpr double kCoarseEdge = 0.5;          // of the tolerance: longest edge of a mesh whose faces are cut inside
-constexpr int kCoarseFaces = 5000;           // meshes with more faces are not cut inside
+constexpr double kSmallestTolerance = 1e-3;    // of R: the octree of distances would not end
+constexpr double kLargestThickness = 1e-3;     // of R: what flat hulls are given, or a tenth of the tolerance if less
+constexpr double kSmallestCube = 1.0 / 32;     // of the tolerance: side of the smallest cubes of the octree
+constexpr double kCertainty = 1 - 1e-4;        // of the tolerance: room for distances in single precision
+constexpr double kMeasureAccuracy = 1.0 / 16;  // of the tolerance: of the concavity that is reported
+constexpr int kSamples = 6000;                 // of the space in the convex hull
+constexpr double kCoarseEdge = 0.5;            // of the tolerance: longest edge of a mesh whose faces are cut inside
+constexpr int kCoarseFaces = 5000;             // meshes with more faces are not cut inside
 constexpr int kMostFacesCut = 200000;
 
 class Stopwatch {
