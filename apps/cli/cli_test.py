@@ -64,7 +64,6 @@ class Usage(CommandLine):
             (whole + ["second.off"], "second.off"),
             (whole + ["--measure", "volume"], "--measure"),
             (whole + ["--measure"], "--measure"),
-            (whole + ["--cup-repair"], "--cup-repair"),
             (whole + ["--max-hulls", "0"], "--max-hulls"),
             (whole + ["--max-hulls", "two"], "--max-hulls"),
             (whole + ["--max-hulls", "99999999999999999999"], "--max-hulls"),
@@ -114,7 +113,7 @@ class Usage(CommandLine):
         self.assert_done(result)
         self.assertIn("Example:\n  partwise decompose ", result.stdout)
         for option in (
-            "--tolerance --absolute --measure --cup-repair --max-hulls --max-hull-vertices --labels --hulls --glb --urdf "
+            "--tolerance --absolute --measure --max-hulls --max-hull-vertices --labels --hulls --glb --urdf "
             "--mjcf --threads --seed --quiet --json --help"
         ).split():
             self.assertIn(option, result.stdout)
@@ -162,7 +161,7 @@ class Results(CommandLine):
         result = self.decompose("--json", "-")
         self.assert_done(result)
         self.assertEqual(json.loads(result.stdout)["measure"], "hull")
-        result = self.decompose("--measure", "valley", "--cup-repair", "--json", "-")
+        result = self.decompose("--measure", "valley", "--json", "-")
         self.assert_done(result)
         self.assertEqual(json.loads(result.stdout)["measure"], "valley")
         self.assert_files()

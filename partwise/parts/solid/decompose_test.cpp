@@ -358,7 +358,7 @@ TEST(Decompose, ProgressStaysWithinBounds) {
   decompose(test::u_shape(8, 2), {}, progress);
 }
 
-// Time must not grow with the square of the number of parts: what was of the mesh's size for every part took minutes.
+// Time must not grow with the square of the number of parts.
 TEST(Decompose, TwentyThousandSeparateTriangles) {
   Mesh mesh{Vertices(60000, 3), Faces(20000, 3)};
   std::mt19937_64 random(1);
