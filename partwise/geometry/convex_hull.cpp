@@ -29,8 +29,8 @@ double extent(const Vertices& points, const Eigen::Vector3d& axis) {
   return along.maxCoeff() - along.minCoeff();
 }
 
-// Doubles the points along every principal axis in which they are thinner than the minimum, and along the thinnest in any
-// case: Qhull may have found no volume in a set that is a little thicker.
+// Doubles the points along every principal axis in which they are thinner than the minimum, and along the thinnest in
+// any case: Qhull may have found no volume in a set that is a little thicker.
 Vertices thicken(const Vertices& points, double minimum_thickness) {
   const Eigen::Matrix3d axes = principal_axes(points);
   Vertices thick = points;
