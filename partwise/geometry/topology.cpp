@@ -7,6 +7,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "partwise/geometry/disjoint_sets.h"
+
 namespace partwise {
 namespace {
 
@@ -15,35 +17,16 @@ bool is_degenerate(const Mesh& mesh, Eigen::Index face) {
   return f[0] == f[1] || f[1] == f[2] || f[2] == f[0];
 }
 
-// Disjoint sets with path halving; the root of a set is its smallest member.
-class DisjointSets {
- public:
-  explicit DisjointSets(Eigen::Index size) : parent_(static_cast<std::size_t>(size)) {
-    std::iota(parent_.begin(), parent_.end(), 0);
+// Sets are named by their least member, so that numbering the names in ascending order is numbering by first member.
+Components components(DisjointSets& sets, std::size_t count) {
+  Components result;
+  result.label.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const int name = sets.find(static_cast<int>(i));
+    result.label[i] = name == static_cast<int>(i) ? result.count++ : result.label[name];
   }
-  int find(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void unite(int a, int b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-  // Roots are smallest members, so that numbering them in ascending order is numbering by first member.
-  Components components() {
-    Components result;
-    result.label.resize(parent_.size());
-    for (std::size_t i = 0; i < parent_.size(); ++i) {
-      const int root = find(static_cast<int>(i));
-      result.label[i] = root == static_cast<int>(i) ? result.count++ : result.label[root];
-    }
-    return result;
-  }
-
- private:
-  std::vector<int> parent_;
-};
+  return result;
+}
 
 // How often an edge is passed from low to high, less how often the other way.
 int imbalance(std::span<const HalfEdge> edge) {
@@ -122,11 +105,11 @@ void make_neighbours_agree(Mesh& mesh, const std::vector<HalfEdge>& sorted) {
 // Turns the closed pieces inside out if their volume is negative in all.
 void make_volume_positive(Mesh& mesh) {
   const std::vector<HalfEdge> sorted = sorted_half_edges(mesh);
-  DisjointSets sets(mesh.faces.rows());
+  DisjointSets sets(static_cast<std::size_t>(mesh.faces.rows()));
   for_each_edge(sorted, [&](std::span<const HalfEdge> edge) {
-    for (const HalfEdge& h : edge) sets.unite(h.face, edge[0].face);
+    for (const HalfEdge& h : edge) sets.join(h.face, edge[0].face);
   });
-  const Components pieces = sets.components();
+  const Components pieces = components(sets, static_cast<std::size_t>(mesh.faces.rows()));
   std::vector<char> closed(static_cast<std::size_t>(pieces.count), 1);
   for_each_edge(sorted, [&](std::span<const HalfEdge> edge) {
     if (imbalance(edge) != 0) closed[pieces.label[edge[0].face]] = 0;
@@ -207,12 +190,12 @@ FaceAdjacency face_adjacency(const Mesh& mesh) {
 }
 
 Components vertex_components(const Mesh& mesh) {
-  DisjointSets sets(mesh.vertices.rows());
+  DisjointSets sets(static_cast<std::size_t>(mesh.vertices.rows()));
   for (const auto& f : mesh.faces.rowwise()) {
-    sets.unite(f[0], f[1]);
-    sets.unite(f[0], f[2]);
+    sets.join(f[0], f[1]);
+    sets.join(f[0], f[2]);
   }
-  return sets.components();
+  return components(sets, static_cast<std::size_t>(mesh.vertices.rows()));
 }
 
 Components face_components_by_vertex(const Mesh& mesh) {

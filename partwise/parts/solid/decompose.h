@@ -4,12 +4,14 @@
 //   hull    (default) no point of any part's hull lies outside the solid by more than the tolerance. For an open mesh
 //           the distance is to the surface. Certified, not sampled.
 //   valley  the dissertation's: the shortest path on the part between the ends of each edge of the part's convex hull
-//           is nowhere deeper below that edge than the tolerance.
+//           is nowhere deeper below that edge than the tolerance. Paths that run on the hull itself, as a cup's rim
+//           does, do not count.
 //
 // Input: any triangle mesh: several components, open, non-manifold, degenerate or repeated faces, isolated vertices.
 // Output: a label for every face; each part is a connected sub-mesh (connected: its faces share vertices) and has a
-// convex hull with a volume that encloses all its vertices. The same bytes for any number of threads.
-// Errors: InputError for a mesh with no face of positive area or a setting out of range; Cancelled.
+// convex hull with a volume that encloses all its vertices. (`max_hulls` may join parts that share no vertex.) The same
+// bytes for any number of threads. Errors: InputError for a mesh with no face of positive area or a setting out of
+// range; Cancelled.
 #pragma once
 
 #include <map>
@@ -39,9 +41,9 @@ struct Decomposition {
   bool cut_inside = false;       // faces were cut inside: `mesh` differs from the input, labels are by majority of area
   double radius = 0;             // R, model units
   double tolerance = 0;          // in the unit that was asked for
-  double concavity = 0;          // largest of any part by the measure, in the unit that was asked for
-  double volume_ratio = 0;       // volume of the union of the hulls / volume of the mesh; not a number for an open mesh
-  bool watertight = false;       // closed: every edge is passed as often one way as the other
+  double concavity = 0;     // upper bound of the largest of any part by the measure, in the unit that was asked for
+  double volume_ratio = 0;  // volume of the union of the hulls / volume of the mesh; not a number for an open mesh
+  bool watertight = false;  // closed: every edge is passed as often one way as the other
   std::map<std::string, double> seconds;  // wall time by stage
 
   int parts() const { return static_cast<int>(hulls.size()); }

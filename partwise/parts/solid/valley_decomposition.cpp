@@ -4,6 +4,7 @@
 #include <map>
 #include <numeric>
 
+#include "partwise/geometry/disjoint_sets.h"
 #include "partwise/parts/solid/convex_ridges.h"
 #include "partwise/parts/solid/ridge_separation.h"
 
@@ -12,22 +13,6 @@ namespace {
 
 // Rims are cut when the largest piece's concavity is at most this share of the whole's.
 constexpr double kConcavityLeft = 0.8;
-
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int find(int v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v;
-  }
-  void join(int a, int b) {
-    a = find(a), b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<int> parent_;
-};
 
 // Numbers the pieces of each label that hang together by edges; a piece without a vertex of its ridge joins the piece
 // with which it shares the longest border. Returns the piece of each local face.
