@@ -47,7 +47,8 @@ Image draw_ridges(const Mesh& mesh, const partwise::Decomposition& parts, double
   std::iota(faces.begin(), faces.end(), 0);
   for (const std::vector<int>& group : partwise::connected_groups(mesh, faces)) {
     const partwise::PartGraph part = partwise::part_graph(mesh, group);
-    const partwise::Bridges bridges = partwise::find_bridges(part, surface, parts.tolerance * parts.radius);
+    const double tolerance = parts.tolerance * parts.radius;
+    const partwise::Bridges bridges = find_bridges(part, part_hull(part, tolerance), surface, tolerance);
     const auto positions = [&](const std::vector<int>& vertices) -> partwise::Vertices {
       return part.positions(vertices, Eigen::all);
     };

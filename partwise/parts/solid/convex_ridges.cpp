@@ -6,26 +6,68 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <queue>
 #include <set>
 
+#include "partwise/base/error.h"
 #include "partwise/geometry/convex_hull.h"
 
 namespace partwise {
 namespace {
 
-constexpr double kOnHullDepth = 0.25;  // of the tolerance
+constexpr double kOnHullDepth = 0.4;  // of the tolerance
 
-std::vector<std::pair<int, int>> hull_edges(const ConvexHull& hull) {
-  std::vector<std::pair<int, int>> edges;
-  for (const auto& f : hull.mesh.faces.rowwise()) {
+PartHull part_hull(const Mesh& hull, const std::vector<int>& local) {
+  PartHull result{{}, hull_planes(hull)};
+  for (const auto& f : hull.faces.rowwise()) {
     for (int k = 0; k < 3; ++k) {
-      const auto [a, b] = std::minmax(hull.source[f[k]], hull.source[f[(k + 1) % 3]]);
-      if (a != b) edges.emplace_back(a, b);
+      const auto [a, b] = std::minmax(local[f[k]], local[f[(k + 1) % 3]]);
+      if (a != b) result.edges.emplace_back(a, b);
     }
   }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  return edges;
+  std::sort(result.edges.begin(), result.edges.end());
+  result.edges.erase(std::unique(result.edges.begin(), result.edges.end()), result.edges.end());
+  return result;
+}
+
+// The edges by one of their ends each, with few such ends, for one search serves all edges of an end: the end with most
+// edges first (a greedy vertex cover).
+struct EdgesOfSource {
+  int source;
+  std::vector<std::size_t> edges;
+};
+
+std::vector<EdgesOfSource> by_source(const std::vector<std::pair<int, int>>& edges, int vertices) {
+  std::vector<std::vector<std::size_t>> at(static_cast<std::size_t>(vertices));
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    at[edges[i].first].push_back(i);
+    at[edges[i].second].push_back(i);
+  }
+  std::priority_queue<std::pair<std::size_t, int>> queue;
+  std::vector<std::size_t> left(at.size());
+  for (std::size_t v = 0; v < at.size(); ++v)
+    if ((left[v] = at[v].size()) > 0) queue.push({left[v], -static_cast<int>(v)});
+  std::vector<char> covered(edges.size(), 0);
+  std::vector<EdgesOfSource> groups;
+  while (!queue.empty()) {
+    const auto [count, minus_v] = queue.top();
+    queue.pop();
+    const auto v = static_cast<std::size_t>(-minus_v);
+    if (left[v] == 0) continue;
+    if (count != left[v]) {
+      queue.push({left[v], minus_v});
+      continue;
+    }
+    groups.push_back({static_cast<int>(v), {}});
+    for (const std::size_t i : at[v]) {
+      if (covered[i]) continue;
+      covered[i] = 1;
+      groups.back().edges.push_back(i);
+      --left[edges[i].first];
+      --left[edges[i].second];
+    }
+  }
+  return groups;
 }
 
 // Whether no vertex of the valley is deeper inside the hull than `depth`.
@@ -67,10 +109,23 @@ double measure(Valley& valley, const PartGraph& part,
 
 }  // namespace
 
-bool has_deep_valley(const PartGraph& part, const SurfaceQuery& surface, double tolerance) {
-  const ConvexHull hull = convex_hull(part.positions, 1e-3 * tolerance);
-  const auto planes = hull_planes(hull.mesh);
-  std::vector<std::pair<int, int>> edges = hull_edges(hull);
+PartHull part_hull(const PartGraph& part, double tolerance) {
+  const ConvexHull hull = convex_hull(part.positions, kBridgeThickness * tolerance);
+  return part_hull(hull.mesh, hull.source);
+}
+
+PartHull part_hull(const PartGraph& part, const Mesh& hull, std::span<const int> source) {
+  std::vector<int> local;
+  for (const int v : source) {
+    const auto found = std::lower_bound(part.vertices.begin(), part.vertices.end(), v);
+    PARTWISE_CHECK(*found, ==, v);
+    local.push_back(static_cast<int>(found - part.vertices.begin()));
+  }
+  return part_hull(hull, local);
+}
+
+bool has_deep_valley(const PartGraph& part, const PartHull& hull, const SurfaceQuery& surface, double tolerance) {
+  std::vector<std::pair<int, int>> edges = hull.edges;
   const auto span = [&](const std::pair<int, int>& e) {
     return (part.positions.row(e.first) - part.positions.row(e.second)).squaredNorm();
   };
@@ -86,16 +141,14 @@ bool has_deep_valley(const PartGraph& part, const SurfaceQuery& surface, double 
     Valley valley;
     valley.path = search.path_to(b);
     if (valley.path.empty()) continue;
-    measure(valley, part, planes, tolerance);
+    measure(valley, part, hull.planes, tolerance);
     if (valley.concavity > tolerance && !valley.on_hull) return true;
   }
   return false;
 }
 
-Bridges find_bridges(const PartGraph& part, const SurfaceQuery& surface, double tolerance) {
-  const ConvexHull hull = convex_hull(part.positions, 1e-3 * tolerance);
-  const auto planes = hull_planes(hull.mesh);
-  const std::vector<std::pair<int, int>> edges = hull_edges(hull);
+Bridges find_bridges(const PartGraph& part, const PartHull& hull, const SurfaceQuery& surface, double tolerance) {
+  const auto& edges = hull.edges;
   tbb::enumerable_thread_specific<PathSearch> searches([&] { return PathSearch(part); });
 
   // A path of length l over a bridge of length L is nowhere deeper than sqrt(l^2 - L^2) / 2: most are settled by that.
@@ -119,37 +172,33 @@ Bridges find_bridges(const PartGraph& part, const SurfaceQuery& surface, double 
     bridges.concavity = std::max(bridges.concavity, bound);
   }
 
-  // The others by their paths, one search for all that start at the same vertex.
-  std::vector<std::size_t> starts;
-  for (std::size_t i = 0; i < open.size(); ++i)
-    if (i == 0 || open[i].first != open[i - 1].first) starts.push_back(i);
+  std::vector<char> inside(open.size(), 0);
+  tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t i) {
+    inside[i] = runs_inside(surface, part.positions.row(open[i].first), part.positions.row(open[i].second));
+  });
+  std::erase_if(open, [&](const auto& bridge) { return inside[&bridge - open.data()] != 0; });
+
+  // The others by their paths.
+  const std::vector<EdgesOfSource> groups = by_source(open, part.size());
   std::vector<Valley> valleys(open.size());
   std::vector<double> lengths(open.size());
-  std::vector<char> ignored(open.size(), 0);
-  tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t s) {
-    const std::size_t begin = starts[s], end = s + 1 < starts.size() ? starts[s + 1] : open.size();
+  tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
+    const auto& [source, bridges_here] = groups[g];
+    const auto target = [&](std::size_t i) { return open[i].first == source ? open[i].second : open[i].first; };
     std::vector<int> targets;
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto [a, b] = open[i];
-      ignored[i] = runs_inside(surface, part.positions.row(a), part.positions.row(b));
-      if (!ignored[i]) targets.push_back(b);
-    }
-    if (targets.empty()) return;
+    for (const std::size_t i : bridges_here) targets.push_back(target(i));
     PathSearch& search = searches.local();
-    search.from(open[begin].first, targets);
-    for (std::size_t i = begin; i < end; ++i) {
-      if (ignored[i]) continue;
+    search.from(source, targets);
+    for (const std::size_t i : bridges_here) {
       Valley& valley = valleys[i];
-      valley.path = search.path_to(open[i].second);
-      if (valley.path.empty()) {  // Joined by nothing but the bridge.
-        ignored[i] = 1;
-        continue;
-      }
-      lengths[i] = measure(valley, part, planes, tolerance);
+      valley.path = search.path_to(target(i));
+      if (valley.path.empty()) continue;
+      if (source != open[i].first) std::reverse(valley.path.begin(), valley.path.end());
+      lengths[i] = measure(valley, part, hull.planes, tolerance);
     }
   });
   for (std::size_t i = 0; i < open.size(); ++i) {
-    if (ignored[i]) continue;
+    if (valleys[i].path.empty()) continue;  // Joined by nothing but the bridge.
     if (!valleys[i].on_hull) bridges.concavity = std::max(bridges.concavity, valleys[i].concavity);
     if (valleys[i].on_hull) {
       bridges.rims.push_back(std::move(valleys[i]));

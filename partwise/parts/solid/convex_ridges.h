@@ -13,6 +13,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "partwise/geometry/surface_query.h"
@@ -25,7 +26,7 @@ struct Valley {
   std::vector<int> path;        // local vertices, from one end of the bridge to the other
   std::vector<Point2> profile;  // the flattened path
   double concavity = 0;
-  bool on_hull = false;  // deep, but no vertex is inside the hull by more than a quarter of the tolerance
+  bool on_hull = false;  // deep, but no vertex is inside the hull by more than 0.4 of the tolerance
 };
 
 struct Bridges {
@@ -40,11 +41,23 @@ struct Bridges {
       0;  // largest of all but the rims; for shallow valleys that were only bounded, their bound counts if it is larger
 };
 
+// The convex hull of a part: its edges by the part's own vertices (local, the lower first, ascending), and its planes.
+struct PartHull {
+  std::vector<std::pair<int, int>> edges;
+  Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> planes;
+};
+
+constexpr double kBridgeThickness = 1e-3;  // of the tolerance: flatter parts have the hull of a plate so thick
+
+PartHull part_hull(const PartGraph& part, double tolerance);
+// From a hull that is known. source: of each of its vertices the global vertex that it is.
+PartHull part_hull(const PartGraph& part, const Mesh& hull, std::span<const int> source);
+
 // All bridges of the part at a tolerance in model units. `surface` is the whole solid's.
-Bridges find_bridges(const PartGraph& part, const SurfaceQuery& surface, double tolerance);
+Bridges find_bridges(const PartGraph& part, const PartHull& hull, const SurfaceQuery& surface, double tolerance);
 
 // Whether find_bridges() would find a deep valley other than rims; looks no further than the first.
-bool has_deep_valley(const PartGraph& part, const SurfaceQuery& surface, double tolerance);
+bool has_deep_valley(const PartGraph& part, const PartHull& hull, const SurfaceQuery& surface, double tolerance);
 
 struct ConvexRidges {
   std::vector<std::vector<int>> members;  // hull vertices (local) of each ridge

@@ -21,7 +21,7 @@ struct Found {
         tolerance(tolerance_asked),
         surface(mesh),
         part(part_graph(mesh, test::all_faces(mesh))),
-        bridges(find_bridges(part, surface, tolerance)),
+        bridges(find_bridges(part, part_hull(part, tolerance), surface, tolerance)),
         ridges(convex_ridges(part, bridges)) {}
 
   Mesh mesh;
@@ -91,7 +91,8 @@ TEST(ConvexRidges, HasDeepValleyAgreesWithFindBridges) {
   for (const Mesh& mesh : shapes())
     for (double tolerance : {0.03, 0.1, 0.2, 0.5}) {
       const Found found(mesh, tolerance);
-      EXPECT_EQ(has_deep_valley(found.part, found.surface, tolerance), !found.bridges.deep.empty());
+      EXPECT_EQ(has_deep_valley(found.part, part_hull(found.part, tolerance), found.surface, tolerance),
+                !found.bridges.deep.empty());
       EXPECT_EQ(found.bridges.concavity > tolerance, !found.bridges.deep.empty());
     }
 }
@@ -139,9 +140,9 @@ TEST(FindBridges, ValleysArePathsOverLinks) {
   for (const Valley& v : found.bridges.deep) {
     ASSERT_EQ(v.path.size(), v.profile.size());
     for (std::size_t k = 1; k < v.path.size(); ++k) {
-      const auto begin = found.part.neighbour.begin() + found.part.first[v.path[k - 1]],
-                 end = found.part.neighbour.begin() + found.part.first[v.path[k - 1] + 1];
-      EXPECT_NE(std::find(begin, end, v.path[k]), end);
+      const auto begin = found.part.steps.begin() + found.part.first[v.path[k - 1]],
+                 end = found.part.steps.begin() + found.part.first[v.path[k - 1] + 1];
+      EXPECT_NE(std::find_if(begin, end, [&](const PartGraph::Step& step) { return step.to == v.path[k]; }), end);
     }
   }
   // The notch is 9 deep, seen from a bridge that runs along or across the depth of 3.

@@ -86,21 +86,21 @@ struct Scene {
   }
 };
 
-std::vector<HullPart> valley_parts(const Scene& scene, double tolerance, double thickness,
-                                   const DecompositionSettings& settings, const Progress& progress) {
+std::vector<HullPart> valley_parts(const Scene& scene, double tolerance, const DecompositionSettings& settings,
+                                   const Progress& progress) {
+  const double thickness = kBridgeThickness * tolerance;
   std::vector<HullPart> parts;
   for (auto& group : connected_groups(scene.mesh, scene.all_faces())) {
-    for (ValleyPart& part : valley_decomposition(scene.mesh, scene.surface, std::move(group), tolerance, progress))
-      parts.push_back(hull_part(scene.mesh, std::move(part.faces), thickness));
+    for (auto& faces : valley_decomposition(scene.mesh, scene.surface, std::move(group), tolerance, progress))
+      parts.push_back(hull_part(scene.mesh, std::move(faces), thickness));
   }
-  const AcceptMerge accept = [&](const HullPart& a, const HullPart& b, const Mesh&) {
-    std::vector<int> faces(a.faces.size() + b.faces.size());
-    std::merge(a.faces.begin(), a.faces.end(), b.faces.begin(), b.faces.end(), faces.begin());
-    return !has_deep_valley(part_graph(scene.mesh, faces), scene.surface, tolerance);
+  const AcceptMerge accept = [&](const HullPart& merged) {
+    const PartGraph part = part_graph(scene.mesh, merged.faces);
+    return !has_deep_valley(part, part_hull(part, merged.hull, merged.source), scene.surface, tolerance);
   };
   PartMerging merging(scene.mesh, scene.space, std::move(parts), accept, {.minimum_thickness = thickness});
-  merging.merge(progress);
-  if (merging.dissolve(progress) > 0) merging.merge(progress);
+  do merging.merge(progress);
+  while (merging.dissolve(progress) > 0);
   parts = merging.parts();
   if (settings.max_hulls > 0) merge_down_to(settings.max_hulls, scene.mesh, scene.space, parts, thickness, progress);
   return parts;
@@ -112,28 +112,16 @@ struct DeliveredHull {
   Mesh scaled, hull;
 };
 
-DeliveredHull delivered_hull(const Mesh& input, const Scene& scene, const HullPart& part, double thickness,
-                             const HullPromise& promise) {
-  const auto to_model = [&](const Vertices& v) -> Vertices {
-    return (v * scene.sphere.radius).rowwise() + scene.sphere.centre;
-  };
-  DeliveredHull delivered;
-  const Mesh exact = convex_hull(part.corners, thickness).mesh;
-  delivered.scaled = promise.shape(exact);
-  if (delivered.scaled.vertices.rows() < exact.vertices.rows()) {
-    delivered.hull = {to_model(delivered.scaled.vertices), delivered.scaled.faces};
-    return delivered;
+DeliveredHull delivered_hull(const Mesh& input, const Scene& scene, const HullPart& part, const HullPromise& promise) {
+  DeliveredHull delivered{promise.shape(part.hull), {}};
+  const Vertices& scaled = delivered.scaled.vertices;
+  delivered.hull = {(scaled * scene.sphere.radius).rowwise() + scene.sphere.centre, delivered.scaled.faces};
+  if (scaled.rows() < part.hull.vertices.rows()) return delivered;
+  for (Eigen::Index v = 0; v < scaled.rows(); ++v) {
+    const int source = part.source[static_cast<std::size_t>(v)];
+    if (source >= 0 && scaled.row(v) == scene.mesh.vertices.row(source))
+      delivered.hull.vertices.row(v) = input.vertices.row(source);
   }
-  const auto stack = [&](const Vertices& own, const Vertices& inner) {
-    Vertices points(own.rows() + inner.rows(), 3);
-    points << own, inner;
-    return points;
-  };
-  const ConvexHull hull = convex_hull(stack(corners_of(scene.mesh, part.faces), part.inner), thickness);
-  delivered.scaled = hull.mesh;
-  const Vertices model = stack(corners_of(input, part.faces), to_model(part.inner));
-  delivered.hull = {hull.thickened ? to_model(hull.mesh.vertices) : Vertices(model(hull.source, Eigen::all)),
-                    hull.mesh.faces};
   return delivered;
 }
 
@@ -143,41 +131,55 @@ struct Result {
   double concavity = 0;  // of the scaled mesh
 };
 
+double deepest_valley(const Scene& scene, const std::vector<HullPart>& parts, double tolerance,
+                      const Progress& progress) {
+  double concavity = 0;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    progress("measuring", static_cast<double>(p) / static_cast<double>(parts.size()));
+    const PartGraph part = part_graph(scene.mesh, parts[p].faces);
+    const PartHull hull = part_hull(part, parts[p].hull, parts[p].source);  // the one that merging was asked about
+    concavity = std::max(concavity, find_bridges(part, hull, scene.surface, tolerance).concavity);
+  }
+  return concavity;
+}
+
+// Roughly: where a hull lies on the surface, every cube along it would be looked at down to the smallest.
+double farthest_reach(Scene& scene, const std::vector<DeliveredHull>& hulls, double tolerance,
+                      const Progress& progress) {
+  double concavity = 0;
+  for (std::size_t p = 0; p < hulls.size(); ++p) {
+    progress("measuring", static_cast<double>(p) / static_cast<double>(hulls.size()));
+    const ConvexBody body(hulls[p].scaled);
+    double reach = scene.outside.reach(body, kMeasureAccuracy * tolerance).distance;
+    if (reach > tolerance && scene.outside.within(body, tolerance)) reach = tolerance;
+    concavity = std::max(concavity, reach);
+  }
+  return concavity;
+}
+
 Result run(const Mesh& input, Scene& scene, double tolerance, const DecompositionSettings& settings, Stopwatch& watch,
            const Progress& progress) {
   const double thickness = std::min(kLargestThickness, tolerance / 10);
   const HullPromise promise(scene.outside, kCertainty * tolerance, settings.max_hull_vertices);
   Result result;
   result.parts = watch.time("parts", [&] {
-    if (settings.measure == ConcavityMeasure::valley)
-      return valley_parts(scene, tolerance, thickness, settings, progress);
+    if (settings.measure == ConcavityMeasure::valley) return valley_parts(scene, tolerance, settings, progress);
     return hull_decomposition(scene.mesh, scene.surface, scene.space, scene.outside, promise,
                               {.minimum_thickness = thickness, .max_hulls = settings.max_hulls}, progress);
   });
   std::sort(result.parts.begin(), result.parts.end(),
             [](const HullPart& a, const HullPart& b) { return a.faces.front() < b.faces.front(); });
+  if (settings.measure == ConcavityMeasure::valley) {
+    result.concavity = watch.time("measure", [&] { return deepest_valley(scene, result.parts, tolerance, progress); });
+    for (HullPart& part : result.parts) set_hull(part, exact_corners(scene.mesh, part), thickness);
+  }
   result.hulls = watch.time("hulls", [&] {
     std::vector<DeliveredHull> hulls;
-    for (const HullPart& part : result.parts) hulls.push_back(delivered_hull(input, scene, part, thickness, promise));
+    for (const HullPart& part : result.parts) hulls.push_back(delivered_hull(input, scene, part, promise));
     return hulls;
   });
-  result.concavity = watch.time("measure", [&] {
-    double concavity = 0;
-    for (std::size_t p = 0; p < result.parts.size(); ++p) {
-      progress("measuring", static_cast<double>(p) / static_cast<double>(result.parts.size()));
-      if (settings.measure == ConcavityMeasure::valley) {
-        concavity = std::max(
-            concavity, find_bridges(part_graph(scene.mesh, result.parts[p].faces), scene.surface, tolerance).concavity);
-      } else {
-        // Roughly: where a hull lies on the surface, every cube along it would be looked at down to the smallest.
-        const ConvexBody body(result.hulls[p].scaled);
-        double reach = scene.outside.reach(body, kMeasureAccuracy * tolerance).distance;
-        if (reach > tolerance && scene.outside.within(body, tolerance)) reach = tolerance;
-        concavity = std::max(concavity, reach);
-      }
-    }
-    return concavity;
-  });
+  if (settings.measure == ConcavityMeasure::hull)
+    result.concavity = watch.time("measure", [&] { return farthest_reach(scene, result.hulls, tolerance, progress); });
   return result;
 }
 

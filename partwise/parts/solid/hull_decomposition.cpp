@@ -6,6 +6,7 @@
 
 #include "partwise/geometry/convex_hull.h"
 #include "partwise/parts/solid/hull_splitting.h"
+#include "partwise/parts/solid/plane_split.h"
 #include "partwise/parts/solid/valley_decomposition.h"
 
 namespace partwise {
@@ -20,17 +21,12 @@ constexpr double kLargestAir = 10;
 void keep_promise(const Mesh& mesh, const HullPromise& promise, std::vector<HullPart>& parts,
                   double minimum_thickness) {
   for (std::size_t p = 0; p < parts.size();) {
-    const Mesh hull = convex_hull(parts[p].corners, minimum_thickness).mesh;
-    if (parts[p].faces.size() == 1 || promise.holds(hull)) {
+    if (parts[p].faces.size() == 1 || promise.holds(parts[p].hull)) {
       ++p;
       continue;
     }
     std::vector<std::vector<int>> groups =
-        split_by_plane(mesh, parts[p].faces, promise.reach(hull).where, minimum_thickness);
-    if (groups.size() < 2) {
-      groups.clear();
-      for (int f : parts[p].faces) groups.push_back({f});
-    }
+        split_by_plane(mesh, parts[p].faces, promise.reach(parts[p].hull).where, minimum_thickness);
     parts[p] = hull_part(mesh, std::move(groups.front()), minimum_thickness);
     for (std::size_t g = 1; g < groups.size(); ++g)
       parts.push_back(hull_part(mesh, std::move(groups[g]), minimum_thickness));
@@ -53,8 +49,8 @@ std::vector<HullPart> hull_decomposition(const Mesh& mesh, const SurfaceQuery& s
   }
   keep_promise(mesh, promise, parts, settings.minimum_thickness);
 
-  const AcceptMerge accept = [&](const HullPart&, const HullPart&, const Mesh& hull) { return promise.holds(hull); };
-  const double solid = space.volume * static_cast<double>(space.solid.rows());
+  const AcceptMerge accept = [&](const HullPart& merged) { return promise.holds(merged.hull); };
+  const double solid = space.volume * static_cast<double>(space.solid.size());
   const MergeSettings merging{.minimum_thickness = settings.minimum_thickness,
                               .largest_air = solid > 0 ? kLargestAir * std::pow(promise.tolerance(), 2) * solid
                                                        : std::numeric_limits<double>::infinity()};
@@ -70,7 +66,7 @@ std::vector<HullPart> hull_decomposition(const Mesh& mesh, const SurfaceQuery& s
     parts = merge.parts();
     keep_promise(mesh, promise, parts, settings.minimum_thickness);
   }
-  fill_interior(space, parts, promise, settings.minimum_thickness);
+  fill_interior(mesh, space, parts, promise, settings.minimum_thickness);
   keep_promise(mesh, promise, parts, settings.minimum_thickness);
   if (settings.max_hulls > 0)
     merge_down_to(settings.max_hulls, mesh, space, parts, settings.minimum_thickness, progress);
@@ -79,7 +75,7 @@ std::vector<HullPart> hull_decomposition(const Mesh& mesh, const SurfaceQuery& s
 
 void merge_down_to(int most, const Mesh& mesh, const SpaceSamples& space, std::vector<HullPart>& parts,
                    double minimum_thickness, const Progress& progress) {
-  const AcceptMerge any = [](const HullPart&, const HullPart&, const Mesh&) { return true; };
+  const AcceptMerge any = [](const HullPart&) { return true; };
   for (const bool connect : {false, true}) {  // Parts that share no vertex only where nothing else is left.
     if (static_cast<int>(parts.size()) <= most) return;
     PartMerging merge(mesh, space, std::move(parts), any, {.minimum_thickness = minimum_thickness});

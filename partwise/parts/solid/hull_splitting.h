@@ -2,8 +2,7 @@
 //
 // First between its convex ridges (Liu 2017, section 2.4), which finds the meaningful cuts. Where that only chips off
 // corners, so that the largest piece is about as large as the whole was (a cup whose valleys run along its rim), by a
-// plane: of planes across the principal axes and between them, at several heights, the one whose two sides have the
-// least total hull volume. Planes cut the inner and the outer wall of a shell at the same place.
+// plane, see plane_split.h.
 #pragma once
 
 #include <vector>
@@ -23,10 +22,5 @@ struct SplittingSettings {
 std::vector<HullPart> split_to_tolerance(const Mesh& mesh, const SurfaceQuery& surface, OutsideDistance& outside,
                                          std::vector<int> faces, const SplittingSettings& settings,
                                          const Progress& progress);
-
-// The two sides of the best plane through the part's faces (by their centroids), each in its connected pieces; one
-// piece if no plane separates them.
-std::vector<std::vector<int>> split_by_plane(const Mesh& mesh, const std::vector<int>& faces, const Point& through,
-                                             double minimum_thickness);
 
 }  // namespace partwise

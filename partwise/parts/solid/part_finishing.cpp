@@ -25,12 +25,6 @@ struct Stars {
   }
 };
 
-Vertices with_point(const Vertices& points, const Point& p) {
-  Vertices more(points.rows() + 1, 3);
-  more << points, p;
-  return more;
-}
-
 }  // namespace
 
 bool absorb_faces(const Mesh& mesh, std::vector<HullPart>& parts, double minimum_thickness) {
@@ -48,7 +42,7 @@ bool absorb_faces(const Mesh& mesh, std::vector<HullPart>& parts, double minimum
   std::vector<char> vertex_inside(vertex_seen.size(), 0);
   for (int p : order) {
     if (parts[p].faces.empty()) continue;
-    const auto planes = hull_planes(convex_hull(parts[p].corners, minimum_thickness).mesh);
+    const auto planes = hull_planes(parts[p].hull);
     const auto inside = [&](int v) {
       if (vertex_seen[v] != p) {
         vertex_seen[v] = p;
@@ -95,22 +89,22 @@ bool absorb_faces(const Mesh& mesh, std::vector<HullPart>& parts, double minimum
   return changed;
 }
 
-void fill_interior(const SpaceSamples& space, std::vector<HullPart>& parts, const HullPromise& promise,
-                   double minimum_thickness) {
+void fill_interior(const Mesh& mesh, const SpaceSamples& space, std::vector<HullPart>& parts,
+                   const HullPromise& promise, double minimum_thickness) {
   constexpr std::size_t kTries = 8;
-  std::vector<char> covered(static_cast<std::size_t>(space.solid.rows()), 0),
-      air(static_cast<std::size_t>(space.air.rows()), 0);
+  std::vector<char> covered(static_cast<std::size_t>(space.solid.size()), 0),
+      air(static_cast<std::size_t>(space.air.size()), 0);
   std::vector<Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>> planes(parts.size());
   const auto enter = [&](std::size_t p, const Mesh& hull) {
     planes[p] = hull_planes(hull);
-    for (int i : points_inside(space.solid, hull)) covered[i] = 1;
-    for (int i : points_inside(space.air, hull)) air[i] = 1;
+    for (int i : space.solid.inside(hull)) covered[i] = 1;
+    for (int i : space.air.inside(hull)) air[i] = 1;
   };
-  for (std::size_t p = 0; p < parts.size(); ++p) enter(p, convex_hull(parts[p].corners, minimum_thickness).mesh);
+  for (std::size_t p = 0; p < parts.size(); ++p) enter(p, parts[p].hull);
 
-  for (int i = 0; i < space.solid.rows(); ++i) {
+  for (int i = 0; i < space.solid.size(); ++i) {
     if (covered[i]) continue;
-    const Point point = space.solid.row(i);
+    const Point point = space.solid[i];
     std::vector<std::pair<double, std::size_t>> nearest;
     for (std::size_t p = 0; p < parts.size(); ++p)
       nearest.emplace_back((planes[p].leftCols<3>() * point.transpose() - planes[p].col(3)).maxCoeff(), p);
@@ -118,22 +112,23 @@ void fill_interior(const SpaceSamples& space, std::vector<HullPart>& parts, cons
     if (nearest.size() > kTries) nearest.resize(kTries);
     double least = std::numeric_limits<double>::infinity();
     std::size_t chosen = 0;
-    ConvexHull grown;
+    HullPart grown;
     for (const auto& [distance, p] : nearest) {
-      ConvexHull hull = convex_hull(with_point(parts[p].corners, point), minimum_thickness);
+      HullPart larger;
+      Corners corners = exact_corners(mesh, parts[p]);
+      corners.append(point, {-1});
+      set_hull(larger, corners, minimum_thickness);
       double taken = 1e-6 * distance;
-      for (int a : points_inside(space.air, hull.mesh)) taken += !air[a];
-      if (taken >= least || !promise.holds(hull.mesh)) continue;
+      for (int a : space.air.inside(larger.hull)) taken += !air[a];
+      if (taken >= least || !promise.holds(larger.hull)) continue;
       least = taken;
       chosen = p;
-      grown = std::move(hull);
+      grown = std::move(larger);
     }
-    if (grown.mesh.faces.rows() == 0) continue;
-    HullPart& part = parts[chosen];
-    part.inner = with_point(part.inner, point);
-    part.corners = grown.mesh.vertices;
-    part.volume = grown.volume;
-    enter(chosen, grown.mesh);
+    if (grown.hull.faces.rows() == 0) continue;
+    grown.faces = std::move(parts[chosen].faces);
+    parts[chosen] = std::move(grown);
+    enter(chosen, parts[chosen].hull);
   }
 }
 

@@ -16,7 +16,7 @@ bool absorb_faces(const Mesh& mesh, std::vector<HullPart>& parts, double minimum
 // Hulls grow over the solid that lies in none of them, as far as the promise allows: parts of the surface leave a core
 // uncovered when they close round it, as the two walls of a shell do when they belong to different parts. Each
 // uncovered sample point becomes a corner (HullPart::inner) of the hull that takes in the least air for it.
-void fill_interior(const SpaceSamples& space, std::vector<HullPart>& parts, const HullPromise& promise,
-                   double minimum_thickness);
+void fill_interior(const Mesh& mesh, const SpaceSamples& space, std::vector<HullPart>& parts,
+                   const HullPromise& promise, double minimum_thickness);
 
 }  // namespace partwise

@@ -22,7 +22,7 @@ void expect_partition(const Mesh& mesh, const std::vector<HullPart>& parts) {
     EXPECT_FALSE(part.faces.empty());
     EXPECT_TRUE(std::is_sorted(part.faces.begin(), part.faces.end()));
     EXPECT_EQ(connected_groups(mesh, part.faces).size(), 1u);
-    EXPECT_LE(test::largest_excess(convex_hull(part.corners, 1e-4).mesh, corners_of(mesh, part.faces)), 1e-12);
+    EXPECT_LE(test::largest_excess(part.hull, corners_of(mesh, part.faces)), 1e-12);
     faces.insert(faces.end(), part.faces.begin(), part.faces.end());
   }
   std::sort(faces.begin(), faces.end());
@@ -83,10 +83,10 @@ struct Measured {
   OutsideDistance outside;
 };
 
-std::size_t uncovered(const Vertices& points, const std::vector<HullPart>& parts) {
-  std::vector<char> covered(static_cast<std::size_t>(points.rows()), 0);
+std::size_t uncovered(const PointTree& points, const std::vector<HullPart>& parts) {
+  std::vector<char> covered(static_cast<std::size_t>(points.size()), 0);
   for (const HullPart& part : parts)
-    for (int i : points_inside(points, convex_hull(part.corners, 1e-4).mesh)) covered[i] = 1;
+    for (int i : points.inside(part.hull)) covered[i] = 1;
   return static_cast<std::size_t>(std::count(covered.begin(), covered.end(), 0));
 }
 
@@ -106,10 +106,10 @@ TEST(FillInterior, SidesOfACubeGrowOverItsInside) {
   ASSERT_EQ(parts.size(), 6u);
   EXPECT_GT(uncovered(m.space.solid, parts), 1500u);
   const HullPromise promise(m.outside, 0.1, 0);
-  fill_interior(m.space, parts, promise, 1e-4);
+  fill_interior(m.mesh, m.space, parts, promise, 1e-4);
   EXPECT_EQ(uncovered(m.space.solid, parts), 0u);
   EXPECT_EQ(parts.size(), 6u);
-  for (const HullPart& part : parts) EXPECT_TRUE(promise.holds(convex_hull(part.corners, 1e-4).mesh));
+  for (const HullPart& part : parts) EXPECT_TRUE(promise.holds(part.hull));
 }
 
 // Two halves of the inner and the outer wall of a hollow box; the cavity may not be filled.
@@ -125,12 +125,12 @@ TEST(FillInterior, NoHullGrowsAgainstItsPromise) {
   std::vector<HullPart> parts = parts_by(m.mesh, label);
   const HullPromise promise(m.outside, 0.05, 0);
   std::vector<double> reach;
-  for (const HullPart& part : parts) reach.push_back(promise.reach(convex_hull(part.corners, 1e-4).mesh).distance);
+  for (const HullPart& part : parts) reach.push_back(promise.reach(part.hull).distance);
   const std::size_t before = uncovered(m.space.solid, parts);
-  fill_interior(m.space, parts, promise, 1e-4);
+  fill_interior(m.mesh, m.space, parts, promise, 1e-4);
   EXPECT_LT(uncovered(m.space.solid, parts), before);
   for (std::size_t p = 0; p < parts.size(); ++p)
-    EXPECT_LE(promise.reach(convex_hull(parts[p].corners, 1e-4).mesh).distance, std::max(0.05, reach[p]) + 0.02);
+    EXPECT_LE(promise.reach(parts[p].hull).distance, std::max(0.05, reach[p]) + 0.02);
   expect_partition(m.mesh, parts);
 }
 
@@ -138,7 +138,7 @@ TEST(FillInterior, AnOpenSurfaceHasNothingToFill) {
   Measured m(test::sheet(6, 3));
   std::vector<HullPart> parts = parts_by(m.mesh, std::vector<int>(static_cast<std::size_t>(m.mesh.faces.rows()), 0));
   const double volume = parts[0].volume;
-  fill_interior(m.space, parts, HullPromise(m.outside, 10, 0), 1e-4);
+  fill_interior(m.mesh, m.space, parts, HullPromise(m.outside, 10, 0), 1e-4);
   EXPECT_EQ(parts[0].volume, volume);
 }
 

@@ -9,6 +9,8 @@
 #include <optional>
 #include <queue>
 
+#include "partwise/geometry/disjoint_sets.h"
+
 namespace partwise {
 namespace {
 
@@ -84,14 +86,38 @@ PartGraph part_graph(const Mesh& mesh, std::span<const int> faces) {
   part.first.assign(part.vertices.size() + 1, 0);
   for (const Link& l : links) ++part.first[l.a + 1], ++part.first[l.b + 1];
   for (std::size_t v = 0; v < part.vertices.size(); ++v) part.first[v + 1] += part.first[v];
-  part.neighbour.resize(2 * links.size());
-  part.length.resize(2 * links.size());
+  part.steps.resize(2 * links.size());
   std::vector<int> next(part.first.begin(), part.first.end() - 1);
   for (const Link& l : links) {
-    part.neighbour[next[l.a]] = l.b, part.length[next[l.a]++] = l.length;
-    part.neighbour[next[l.b]] = l.a, part.length[next[l.b]++] = l.length;
+    part.steps[next[l.a]++] = {l.b, l.length};
+    part.steps[next[l.b]++] = {l.a, l.length};
   }
   return part;
+}
+
+std::vector<std::vector<int>> connected_groups(const Mesh& mesh, const std::vector<int>& faces) {
+  DisjointSets sets(static_cast<std::size_t>(mesh.vertices.rows()));
+  for (int f : faces) sets.join(mesh.faces(f, 0), mesh.faces(f, 1)), sets.join(mesh.faces(f, 1), mesh.faces(f, 2));
+  std::vector<std::vector<int>> groups;
+  std::vector<int> number(static_cast<std::size_t>(mesh.vertices.rows()), -1);
+  for (int f : faces) {
+    int& group = number[sets.find(mesh.faces(f, 0))];
+    if (group < 0) {
+      group = static_cast<int>(groups.size());
+      groups.emplace_back();
+    }
+    groups[group].push_back(f);
+  }
+  return groups;
+}
+
+PathSearch::PathSearch(const PartGraph& graph)
+    : graph_(graph), distance_(graph.first.size()), previous_(graph.first.size()), seen_(graph.first.size(), 0) {
+  constexpr double kMostBuckets = 1024;
+  double sum = 0, longest = 0;
+  for (const auto& step : graph.steps) sum += step.length, longest = std::max(longest, step.length);
+  if (longest > 0) width_ = std::max(0.5 * sum / static_cast<double>(graph.steps.size()), longest / kMostBuckets);
+  ring_.resize(static_cast<std::size_t>(longest / width_) + 2);
 }
 
 void PathSearch::begin() { ++round_; }
@@ -123,8 +149,8 @@ double PathSearch::bounded_length(int a, int b, double at_most) {
     const double here = distance_[v];
     if (key > here + ahead(v) + 1e-12) continue;  // A shorter way was found since.
     for (int i = graph_.first[v]; i < graph_.first[v + 1]; ++i) {
-      const int w = graph_.neighbour[i];
-      const double distance = here + graph_.length[i];
+      const auto [w, length] = graph_.steps[i];
+      const double distance = here + length;
       const double least = distance + ahead(w);
       if (least <= at_most && relax(w, distance, v)) queue.push({least, w});
     }
@@ -134,22 +160,29 @@ double PathSearch::bounded_length(int a, int b, double at_most) {
 
 void PathSearch::from(int source, std::span<const int> targets) {
   begin();
-  std::vector<int> wanted(targets.begin(), targets.end());
-  std::sort(wanted.begin(), wanted.end());
-  std::size_t missing = wanted.size();
-  Queue queue;
+  std::vector<int> missing(targets.begin(), targets.end());
+  const auto bucket_of = [&](double distance) { return static_cast<std::size_t>(distance / width_); };
   relax(source, 0, -1);
-  queue.push({0, source});
-  while (!queue.empty() && missing > 0) {
-    const auto [distance, v] = queue.top();
-    queue.pop();
-    if (distance > distance_[v]) continue;
-    if (std::binary_search(wanted.begin(), wanted.end(), v)) --missing;
-    for (int i = graph_.first[v]; i < graph_.first[v + 1]; ++i) {
-      const int w = graph_.neighbour[i];
-      if (relax(w, distance + graph_.length[i], v)) queue.push({distance_[w], w});
+  ring_.front().emplace_back(0, source);
+  std::size_t queued = 1;
+  for (std::size_t at = 0; queued > 0; ++at) {
+    auto& bucket = ring_[at % ring_.size()];
+    for (std::size_t i = 0; i < bucket.size(); ++i) {  // It may grow.
+      const auto [distance, v] = bucket[i];
+      if (distance > distance_[v]) continue;  // A shorter way was found since.
+      for (int s = graph_.first[v]; s < graph_.first[v + 1]; ++s) {
+        const auto [w, length] = graph_.steps[s];
+        if (!relax(w, distance + length, v)) continue;
+        ring_[bucket_of(distance_[w]) % ring_.size()].emplace_back(distance_[w], w);
+        ++queued;
+      }
     }
+    queued -= bucket.size();
+    bucket.clear();
+    std::erase_if(missing, [&](int v) { return seen_[v] == round_ && bucket_of(distance_[v]) <= at; });
+    if (missing.empty()) break;
   }
+  for (auto& bucket : ring_) bucket.clear();
 }
 
 std::vector<int> PathSearch::path_to(int target) const {
@@ -172,8 +205,8 @@ std::vector<double> PathSearch::within_reach(std::span<const std::pair<int, doub
     if (value > distance_[v]) continue;
     result[v] = value;
     for (int i = graph_.first[v]; i < graph_.first[v + 1]; ++i) {
-      const int w = graph_.neighbour[i];
-      const double next = value + graph_.length[i];
+      const auto [w, length] = graph_.steps[i];
+      const double next = value + length;
       if (next < 0 && relax(w, next, v)) queue.push({next, w});
     }
   }

@@ -20,10 +20,13 @@ struct PartGraph {
   Vertices positions;                       // of the local vertices
   std::vector<std::array<int, 3>> corners;  // local vertices of each local face
 
-  // Neighbours of local vertex v: neighbour[i], length[i] for i in [first[v], first[v + 1]).
+  // From local vertex v go steps[i], i in [first[v], first[v + 1]).
+  struct Step {
+    int to;
+    double length;
+  };
   std::vector<int> first;
-  std::vector<int> neighbour;
-  std::vector<double> length;
+  std::vector<Step> steps;
 
   // Pairs of faces that share an edge (a, b); round an edge of more than two faces, each with the next.
   struct SharedEdge {
@@ -38,17 +41,20 @@ struct PartGraph {
 // `faces`: global face numbers, ascending.
 PartGraph part_graph(const Mesh& mesh, std::span<const int> faces);
 
-// Shortest paths in a part's graph (Dijkstra 1959, with a binary heap). Keeps its arrays from one search to the next.
+// Connected (by vertices) groups of the faces listed, each ascending, in the order of their first face.
+std::vector<std::vector<int>> connected_groups(const Mesh& mesh, const std::vector<int>& faces);
+
+// Shortest paths in a part's graph. Keeps its arrays from one search to the next.
 class PathSearch {
  public:
-  explicit PathSearch(const PartGraph& graph)
-      : graph_(graph), distance_(graph.first.size()), previous_(graph.first.size()), seen_(graph.first.size(), 0) {}
+  explicit PathSearch(const PartGraph& graph);
 
   // Length of the shortest path from a to b if it is at most `at_most`, else infinity. Looks only where a path of
   // that length can pass: d(a, v) + |v b| <= at_most.
   double bounded_length(int a, int b, double at_most);
 
-  // Distances and paths from `source` to each target.
+  // Distances and paths from `source` to each target: Dijkstra (1959) with buckets of distances in place of a heap. A
+  // vertex may be reached again on a shorter way through its own bucket, and is then taken from it once more.
   void from(int source, std::span<const int> targets);
   // After from(): the path source .. target.
   std::vector<int> path_to(int target) const;
@@ -65,6 +71,8 @@ class PathSearch {
   std::vector<int> previous_;
   std::vector<int> seen_;
   int round_ = 0;
+  double width_ = 1;                                       // of a bucket
+  std::vector<std::vector<std::pair<double, int>>> ring_;  // buckets, used in turns: no step is longer than all
 };
 
 }  // namespace partwise

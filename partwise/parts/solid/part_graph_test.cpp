@@ -19,7 +19,7 @@ Eigen::MatrixXd all_lengths(const PartGraph& graph) {
   for (int v = 0; v < n; ++v) {
     length(v, v) = 0;
     for (int i = graph.first[v]; i < graph.first[v + 1]; ++i)
-      length(v, graph.neighbour[i]) = std::min(length(v, graph.neighbour[i]), graph.length[i]);
+      length(v, graph.steps[i].to) = std::min(length(v, graph.steps[i].to), graph.steps[i].length);
   }
   for (int k = 0; k < n; ++k)
     for (int i = 0; i < n; ++i)
@@ -112,7 +112,7 @@ TEST(PartGraph, NoDiagonalWhereItWouldLeaveTheFaces) {
   const Mesh mesh = test::mesh_of({{0, 0, 0}, {3, 0, 0}, {-1, 1, 0}, {-1, -1, 0}}, {{0, 1, 2}, {1, 0, 3}});
   const PartGraph graph = part_graph(mesh, test::all_faces(mesh));
   EXPECT_NEAR(all_lengths(graph)(2, 3), 2 * std::sqrt(2.0), 1e-12);
-  EXPECT_EQ(graph.neighbour.size(), 10u);
+  EXPECT_EQ(graph.steps.size(), 10u);
 }
 
 TEST(PartGraph, LocalNumbersAndSharedEdges) {

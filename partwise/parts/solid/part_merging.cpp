@@ -19,6 +19,18 @@ constexpr int kSketchDirections = 96;
 constexpr double kGrowthPrice = 0.1;  // of a volume of solid taken in, against the same volume of air
 constexpr std::size_t kMostPiecesToDissolve = 8;
 
+// Whether b's hull lies in a's: then theirs together is a's.
+bool encloses(const HullPart& a, const HullPart& b) {
+  constexpr double kOnPlane = 1e-14;  // shared corners are on the planes to rounding
+  if (((b.hull.vertices.colwise().maxCoeff() - a.hull.vertices.colwise().maxCoeff()).array() > 0).any() ||
+      ((a.hull.vertices.colwise().minCoeff() - b.hull.vertices.colwise().minCoeff()).array() > 0).any())
+    return false;
+  const auto planes = hull_planes(a.hull);
+  for (const auto& corner : b.hull.vertices.rowwise())
+    if ((planes.leftCols<3>() * corner.transpose() - planes.col(3)).maxCoeff() > kOnPlane) return false;
+  return true;
+}
+
 Vertices stacked(const Vertices& a, const Vertices& b) {
   Vertices both(a.rows() + b.rows(), 3);
   both << a, b;
@@ -68,20 +80,51 @@ Vertices extreme_points(const Vertices& points) {
   return points(extreme, Eigen::all);
 }
 
-Vertices corners_of(const Mesh& mesh, const std::vector<int>& faces) {
+std::vector<int> vertices_of(const Mesh& mesh, const std::vector<int>& faces) {
   std::vector<int> used;
   used.reserve(3 * faces.size());
   for (int f : faces)
     for (int k = 0; k < 3; ++k) used.push_back(mesh.faces(f, k));
   std::sort(used.begin(), used.end());
   used.erase(std::unique(used.begin(), used.end()), used.end());
-  return mesh.vertices(used, Eigen::all);
+  return used;
+}
+
+Vertices corners_of(const Mesh& mesh, const std::vector<int>& faces) {
+  return mesh.vertices(vertices_of(mesh, faces), Eigen::all);
+}
+
+void Corners::append(const Vertices& more, const std::vector<int>& their_source) {
+  points.conservativeResize(points.rows() + more.rows(), 3);
+  points.bottomRows(more.rows()) = more;
+  source.insert(source.end(), their_source.begin(), their_source.end());
+}
+
+Corners exact_corners(const Mesh& mesh, const HullPart& part) {
+  if (!part.thickened) return {part.hull.vertices, part.source};
+  Corners corners;
+  for (const int v : part.source)
+    if (v >= 0) corners.source.push_back(v);
+  std::sort(corners.source.begin(), corners.source.end());
+  corners.source.erase(std::unique(corners.source.begin(), corners.source.end()), corners.source.end());
+  corners.points = mesh.vertices(corners.source, Eigen::all);
+  return corners;
+}
+
+void set_hull(HullPart& part, const Corners& corners, double minimum_thickness) {
+  ConvexHull hull = convex_hull(corners.points, minimum_thickness);
+  part.source.clear();
+  for (int corner : hull.source) part.source.push_back(corners.source[corner]);
+  part.hull = std::move(hull.mesh);
+  part.thickened = hull.thickened;
+  part.volume = hull.volume;
+  part.sketch = extreme_points(part.hull.vertices);
 }
 
 HullPart hull_part(const Mesh& mesh, std::vector<int> faces, double minimum_thickness) {
-  const ConvexHull hull = convex_hull(corners_of(mesh, faces), minimum_thickness);
-  HullPart part{std::move(faces), hull.mesh.vertices, {}, hull.volume, {}};
-  part.sketch = extreme_points(part.corners);
+  std::vector<int> used = vertices_of(mesh, faces);
+  HullPart part{.faces = std::move(faces)};
+  set_hull(part, {mesh.vertices(used, Eigen::all), std::move(used)}, minimum_thickness);
   return part;
 }
 
@@ -95,7 +138,7 @@ PartMerging::PartMerging(const Mesh& mesh, const SpaceSamples& space, std::vecto
       piece_neighbours_(neighbours_by_vertex(mesh, pieces_)),
       part_of_(pieces_.size()),
       parts_(pieces_.size()),
-      covered_(static_cast<std::size_t>(space.air.rows()), 0) {
+      covered_(static_cast<std::size_t>(space.air.size()), 0) {
   std::iota(part_of_.begin(), part_of_.end(), 0);
   for (int p = 0; p < static_cast<int>(parts_.size()); ++p) {
     parts_[p].pieces = {p};
@@ -108,18 +151,27 @@ PartMerging::PartMerging(const Mesh& mesh, const SpaceSamples& space, std::vecto
 double PartMerging::cost_of(const HullPart& a, const HullPart& b) const {
   const ConvexHull hull = convex_hull(stacked(a.sketch, b.sketch), settings_.minimum_thickness);
   double air = 0;
-  for (int point : points_inside(space_.air, hull.mesh)) air += covered_[point] == 0 ? space_.volume : 0;
+  for (int point : space_.air.inside(hull.mesh)) air += covered_[point] == 0 ? space_.volume : 0;
   if (air > settings_.largest_air) return std::numeric_limits<double>::infinity();
   return air + kGrowthPrice * std::max(0.0, hull.volume - a.volume - b.volume);
 }
 
 bool PartMerging::joined(const HullPart& a, const HullPart& b, HullPart& result) const {
-  const ConvexHull hull = convex_hull(stacked(a.corners, b.corners), settings_.minimum_thickness);
-  if (!accept_(a, b, hull.mesh)) return false;
-  std::vector<int> faces(a.faces.size() + b.faces.size());
-  std::merge(a.faces.begin(), a.faces.end(), b.faces.begin(), b.faces.end(), faces.begin());
-  result = {std::move(faces), hull.mesh.vertices, extreme_points(hull.mesh.vertices), hull.volume,
-            stacked(a.inner, b.inner)};
+  HullPart merged;
+  merged.faces.resize(a.faces.size() + b.faces.size());
+  std::merge(a.faces.begin(), a.faces.end(), b.faces.begin(), b.faces.end(), merged.faces.begin());
+  if (const HullPart* outer = encloses(a, b) ? &a : encloses(b, a) ? &b : nullptr) {
+    std::vector<int> faces = std::move(merged.faces);
+    merged = *outer;
+    merged.faces = std::move(faces);
+  } else {
+    Corners both = exact_corners(mesh_, a);
+    const Corners more = exact_corners(mesh_, b);
+    both.append(more.points, more.source);
+    set_hull(merged, both, settings_.minimum_thickness);
+  }
+  if (!accept_(merged)) return false;
+  result = std::move(merged);
   return true;
 }
 
@@ -128,8 +180,7 @@ void PartMerging::replace(int part, HullPart body) {
   for (int i : p.air) --covered_[i];
   p.body = std::move(body);
   p.air.clear();
-  if (!p.body.faces.empty())
-    p.air = points_inside(space_.air, convex_hull(p.body.corners, settings_.minimum_thickness).mesh);
+  if (!p.body.faces.empty()) p.air = space_.air.inside(p.body.hull);
   for (int i : p.air) ++covered_[i];
   ++p.version;
 }
@@ -148,7 +199,7 @@ void PartMerging::connect_all() {
   constexpr std::size_t kNearest = 8;
   const auto count = static_cast<int>(pieces_.size());
   std::vector<Point> centre;
-  for (const HullPart& piece : pieces_) centre.push_back(piece.corners.colwise().mean());
+  for (const HullPart& piece : pieces_) centre.push_back(piece.hull.vertices.colwise().mean());
   const auto link = [&](int a, int b) {
     piece_neighbours_[a].push_back(b);
     piece_neighbours_[b].push_back(a);

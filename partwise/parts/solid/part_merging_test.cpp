@@ -43,8 +43,8 @@ std::vector<int> faces_of(const std::vector<HullPart>& parts) {
 
 // Accepts hulls that hold at most this much more than the solid's cells in them.
 AcceptMerge little_air(const SpaceSamples& space, double most) {
-  return [&space, most](const HullPart&, const HullPart&, const Mesh& hull) {
-    return static_cast<double>(points_inside(space.air, hull).size()) * space.volume <= most;
+  return [&space, most](const HullPart& merged) {
+    return static_cast<double>(space.air.inside(merged.hull).size()) * space.volume <= most;
   };
 }
 
@@ -114,7 +114,7 @@ TEST(PartMerging, SeparateBodiesMergeOnlyWhenConnected) {
 TEST(PartMerging, DissolvesWhatItsNeighboursCanTake) {
   const Mesh mesh = test::cells_mesh(block({0, 0, 0}, {4, 1, 1}));
   const SpaceSamples space = samples_of(mesh);
-  const AcceptMerge half = [](const HullPart&, const HullPart&, const Mesh& hull) { return signed_volume(hull) < 2.1; };
+  const AcceptMerge half = [](const HullPart& merged) { return merged.volume < 2.1; };
   PartMerging merging(mesh, space, slabs(mesh, 0), half, {});
   merging.merge({});
   const std::size_t before = merging.parts().size();
@@ -124,7 +124,7 @@ TEST(PartMerging, DissolvesWhatItsNeighboursCanTake) {
   EXPECT_EQ(faces_of(merging.parts()), test::all_faces(mesh));
   for (const HullPart& part : merging.parts()) {
     EXPECT_NEAR(part.volume, 2, 1e-4);
-    EXPECT_LE(test::largest_excess(convex_hull(part.corners, 1e-4).mesh, corners_of(mesh, part.faces)), 1e-12);
+    EXPECT_LE(test::largest_excess(part.hull, corners_of(mesh, part.faces)), 1e-12);
   }
 }
 
@@ -145,13 +145,13 @@ TEST(SpaceSamples, CountsApproximateVolumes) {
   const SurfaceQuery surface(mesh);
   const Mesh hull = convex_hull(mesh.vertices, 1e-6).mesh;
   const SpaceSamples space = sample_space(surface, true, hull, 4000);
-  EXPECT_NEAR(static_cast<double>(space.solid.rows()) * space.volume, 40, 1);
-  EXPECT_NEAR(static_cast<double>(space.air.rows()) * space.volume, signed_volume(hull) - 40, 1);
-  EXPECT_NEAR(static_cast<double>(space.air.rows() + space.solid.rows()), 4000, 100);
-  for (const auto& p : space.solid.rowwise()) EXPECT_TRUE(p.x() <= 2 || p.y() <= 2);
-  for (const auto& p : space.air.rowwise()) EXPECT_FALSE(p.x() < 2 || p.y() < 2);
-  EXPECT_EQ(points_inside(space.solid, hull).size(), static_cast<std::size_t>(space.solid.rows()));
-  EXPECT_EQ(sample_space(surface, false, hull, 100).solid.rows(), 0);
+  EXPECT_NEAR(static_cast<double>(space.solid.size()) * space.volume, 40, 1);
+  EXPECT_NEAR(static_cast<double>(space.air.size()) * space.volume, signed_volume(hull) - 40, 1);
+  EXPECT_NEAR(static_cast<double>(space.air.size() + space.solid.size()), 4000, 100);
+  for (const auto& p : space.solid.points().rowwise()) EXPECT_TRUE(p.x() <= 2 || p.y() <= 2);
+  for (const auto& p : space.air.points().rowwise()) EXPECT_FALSE(p.x() < 2 || p.y() < 2);
+  EXPECT_EQ(space.solid.inside(hull).size(), static_cast<std::size_t>(space.solid.size()));
+  EXPECT_EQ(sample_space(surface, false, hull, 100).solid.size(), 0);
 }
 
 }  // namespace

@@ -109,7 +109,7 @@ TEST(SeparateRidges, EveryRidgeKeepsTheFacesAboutItsVertices) {
     const Mesh mesh = test::normalised(shape);
     const SurfaceQuery surface(mesh);
     const PartGraph part = graph_of(mesh);
-    const Bridges bridges = find_bridges(part, surface, 0.1);
+    const Bridges bridges = find_bridges(part, part_hull(part, 0.1), surface, 0.1);
     const ConvexRidges ridges = convex_ridges(part, bridges);
     ASSERT_GE(ridges.members.size(), 2u);
     const std::vector<int> label = separate_ridges(part, bridges, ridges, 0.1);
@@ -134,7 +134,7 @@ TEST(SeparateRidges, ADumbbellIsCutThroughItsBar) {
   const Mesh mesh = test::normalised(test::dumbbell());
   const SurfaceQuery surface(mesh);
   const PartGraph part = graph_of(mesh);
-  const Bridges bridges = find_bridges(part, surface, 0.1);
+  const Bridges bridges = find_bridges(part, part_hull(part, 0.1), surface, 0.1);
   const std::vector<int> label = separate_ridges(part, bridges, convex_ridges(part, bridges), 0.1);
   for (const auto& e : part.shared) {
     if (label[e.face] == label[e.other]) continue;

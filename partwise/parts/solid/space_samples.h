@@ -4,22 +4,18 @@
 // Halton sequence (1960) in the hull's bounding box, each standing for the same volume.
 #pragma once
 
-#include <vector>
-
 #include "partwise/geometry/mesh.h"
+#include "partwise/geometry/point_tree.h"
 #include "partwise/geometry/surface_query.h"
 
 namespace partwise {
 
 struct SpaceSamples {
-  Vertices air, solid;
+  PointTree air, solid;
   double volume = 0;  // that a point stands for
 };
 
 // Draws until there are `count` points in the hull, in either set. An open surface has no inside: all points are air.
 SpaceSamples sample_space(const SurfaceQuery& surface, bool closed, const Mesh& hull, int count);
-
-// The points (rows) inside the convex hull, ascending.
-std::vector<int> points_inside(const Vertices& points, const Mesh& hull);
 
 }  // namespace partwise

@@ -6,6 +6,7 @@
 
 #include "partwise/geometry/disjoint_sets.h"
 #include "partwise/parts/solid/convex_ridges.h"
+#include "partwise/parts/solid/plane_split.h"
 #include "partwise/parts/solid/ridge_separation.h"
 
 namespace partwise {
@@ -53,26 +54,6 @@ std::vector<int> pieces(const PartGraph& part, const ConvexRidges& ridges, const
   return piece;
 }
 
-}  // namespace
-
-std::vector<std::vector<int>> connected_groups(const Mesh& mesh, const std::vector<int>& faces) {
-  DisjointSets sets(static_cast<std::size_t>(mesh.vertices.rows()));
-  for (int f : faces) sets.join(mesh.faces(f, 0), mesh.faces(f, 1)), sets.join(mesh.faces(f, 1), mesh.faces(f, 2));
-  std::vector<std::vector<int>> groups;
-  std::vector<int> number(static_cast<std::size_t>(mesh.vertices.rows()), -1);
-  for (int f : faces) {
-    int& group = number[sets.find(mesh.faces(f, 0))];
-    if (group < 0) {
-      group = static_cast<int>(groups.size());
-      groups.emplace_back();
-    }
-    groups[group].push_back(f);
-  }
-  return groups;
-}
-
-namespace {
-
 // The pieces of a part with deep valleys, cut between its ridges; the part itself where no cut was found.
 std::vector<std::vector<int>> separate(const Mesh& mesh, const PartGraph& part, const Bridges& bridges,
                                        double tolerance) {
@@ -86,53 +67,62 @@ std::vector<std::vector<int>> separate(const Mesh& mesh, const PartGraph& part, 
   return groups;
 }
 
-double deepest(const std::vector<Valley>& valleys) {
-  double concavity = 0;
-  for (const Valley& v : valleys) concavity = std::max(concavity, v.concavity);
-  return concavity;
+// The most concave of some valleys, null for none.
+const Valley* deepest(const std::vector<Valley>& valleys) {
+  const auto found = std::max_element(valleys.begin(), valleys.end(),
+                                      [](const Valley& a, const Valley& b) { return a.concavity < b.concavity; });
+  return found == valleys.end() ? nullptr : &*found;
+}
+
+Point deepest_point(const PartGraph& part, const Valley& valley, double tolerance) {
+  const std::vector<double> concavity = valley_concavity(valley.profile, tolerance);
+  const auto at = std::max_element(concavity.begin(), concavity.end()) - concavity.begin();
+  return part.positions.row(valley.path[static_cast<std::size_t>(at)]);
 }
 
 }  // namespace
 
 std::vector<std::vector<int>> separate_once(const Mesh& mesh, const SurfaceQuery& surface,
-                                            const std::vector<int>& faces, double tolerance, double* concavity) {
+                                            const std::vector<int>& faces, double tolerance) {
   const PartGraph part = part_graph(mesh, faces);
-  Bridges bridges = find_bridges(part, surface, tolerance);
-  if (concavity) *concavity = bridges.concavity;
-  if (!bridges.deep.empty()) return separate(mesh, part, bridges, tolerance);
+  Bridges bridges = find_bridges(part, part_hull(part, tolerance), surface, tolerance);
+  if (const Valley* valley = deepest(bridges.deep)) {
+    std::vector<std::vector<int>> groups = separate(mesh, part, bridges, tolerance);
+    if (groups.size() > 1) return groups;
+    return split_by_plane(mesh, faces, deepest_point(part, *valley, tolerance), kBridgeThickness * tolerance);
+  }
   if (bridges.rims.empty()) return {faces};
   // Rims alone: separate there if that makes them shallower.
-  const double before = deepest(bridges.rims);
+  const double before = deepest(bridges.rims)->concavity;
   bridges.deep = std::move(bridges.rims);
   std::vector<std::vector<int>> groups = separate(mesh, part, bridges, tolerance);
   const auto largest =
       std::max_element(groups.begin(), groups.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
-  const Bridges after = find_bridges(part_graph(mesh, *largest), surface, tolerance);
-  if (std::max(after.concavity, deepest(after.rims)) > kConcavityLeft * before) return {faces};
+  const PartGraph left = part_graph(mesh, *largest);
+  const Bridges after = find_bridges(left, part_hull(left, tolerance), surface, tolerance);
+  const Valley* rim = deepest(after.rims);
+  if (std::max(after.concavity, rim ? rim->concavity : 0) > kConcavityLeft * before) return {faces};
   return groups;
 }
 
-std::vector<ValleyPart> valley_decomposition(const Mesh& mesh, const SurfaceQuery& surface, std::vector<int> faces,
-                                             double tolerance, const Progress& progress) {
-  std::vector<ValleyPart> done;
-  std::vector<std::vector<int>> open{std::move(faces)};
+std::vector<std::vector<int>> valley_decomposition(const Mesh& mesh, const SurfaceQuery& surface,
+                                                   std::vector<int> faces, double tolerance, const Progress& progress) {
+  std::vector<std::vector<int>> done, open{std::move(faces)};
   const double total = static_cast<double>(open.front().size());
   double finished = 0;
   while (!open.empty()) {
     progress("convex ridges", finished / total);
     std::vector<int> current = std::move(open.back());
     open.pop_back();
-    double concavity = 0;
-    std::vector<std::vector<int>> split = separate_once(mesh, surface, current, tolerance, &concavity);
+    std::vector<std::vector<int>> split = separate_once(mesh, surface, current, tolerance);
     if (split.size() > 1) {
       for (auto& group : split) open.push_back(std::move(group));
     } else {
       finished += static_cast<double>(current.size());
-      done.push_back({std::move(current), concavity});
+      done.push_back(std::move(current));
     }
   }
-  std::sort(done.begin(), done.end(),
-            [](const ValleyPart& a, const ValleyPart& b) { return a.faces.front() < b.faces.front(); });
+  std::sort(done.begin(), done.end(), [](const auto& a, const auto& b) { return a.front() < b.front(); });
   return done;
 }
 

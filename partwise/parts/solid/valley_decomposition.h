@@ -10,24 +10,16 @@
 
 namespace partwise {
 
-// Connected (by vertices) groups of the faces listed, each ascending, in the order of their first face.
-std::vector<std::vector<int>> connected_groups(const Mesh& mesh, const std::vector<int>& faces);
-
 // One round: the connected pieces between the ridges of the faces listed (one connected group); the faces themselves
-// where no valley is deep or no cut was found. Where only rims are deep (valleys that run on the hull), the pieces are
-// taken only if the largest is less concave than the whole was; else cutting would nibble at the rim of a cup for ever.
-// `concavity`, if given, becomes that of the whole.
+// where no valley is deep. Deep valleys between which no cut was found are cut by a plane through the deepest point.
+// Where only rims are deep (valleys that run on the hull), the pieces are taken only if the largest is less concave
+// than the whole was; else cutting would nibble at the rim of a cup for ever.
 std::vector<std::vector<int>> separate_once(const Mesh& mesh, const SurfaceQuery& surface,
-                                            const std::vector<int>& faces, double tolerance,
-                                            double* concavity = nullptr);
+                                            const std::vector<int>& faces, double tolerance);
 
-struct ValleyPart {
-  std::vector<int> faces;  // global, ascending
-  double concavity = 0;    // of its deepest valley, model units; above the tolerance only where no cut could be found
-};
-
-// Decomposes the faces listed (one connected group).
-std::vector<ValleyPart> valley_decomposition(const Mesh& mesh, const SurfaceQuery& surface, std::vector<int> faces,
-                                             double tolerance, const Progress& progress);
+// Decomposes the faces listed (one connected group) into connected groups, ascending, in the order of their first face.
+// None has a valley deeper than the tolerance (model units), rims aside.
+std::vector<std::vector<int>> valley_decomposition(const Mesh& mesh, const SurfaceQuery& surface,
+                                                   std::vector<int> faces, double tolerance, const Progress& progress);
 
 }  // namespace partwise
