@@ -1,7 +1,8 @@
 """The harness on small answers known beforehand; and from end to end with a program of a few lines in place of partwise,
-which puts a box around every mesh: decompose_bench_test.py CHECKER [HACD]"""
+which puts a box around every mesh: decompose_bench_test.py CHECKER RIDGE_NOISE [HACD]"""
 
 import io
+import json
 import math
 import stat
 import sys
@@ -17,7 +18,7 @@ from harness.decompose import Settings, decompose
 from harness.dissertation import AVERAGE, TABLE_2_3
 from harness.rand_error import People, rand_error
 
-CHECKER = HACD = ""
+CHECKER = RIDGE_NOISE = HACD = ""
 CORNERS = [(x, y, z) for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)]
 SIDES = [(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4),
          (1, 5, 7), (1, 7, 3)]
@@ -124,6 +125,73 @@ class Process(unittest.TestCase):
         self.assertEqual(process.run([sys.executable, "-c", ""], 30).trouble, "")
 
 
+def star(arm=3):
+    """Six square arms of unit width about a unit cube, as unit squares cut in two."""
+    cells = {(0, 0, 0)} | {tuple(sign * step if k == axis else 0 for k in range(3))
+                           for axis in range(3) for sign in (-1, 1) for step in range(1, arm + 1)}
+    number, faces = {}, []
+    for cell in sorted(cells):
+        for axis in range(3):
+            for up in (0, 1):
+                if tuple(cell[k] + (2 * up - 1) * (k == axis) for k in range(3)) in cells:
+                    continue
+                square = []
+                for u, v in ((0, 0), (1, 0), (1, 1), (0, 1)):
+                    corner = list(cell)
+                    corner[axis] += up
+                    corner[(axis + 1) % 3] += u
+                    corner[(axis + 2) % 3] += v
+                    square.append(number.setdefault(tuple(map(float, corner)), len(number)))
+                a, b, c, d = square if up else square[::-1]
+                faces += [(a, b, c), (a, c, d)]
+    return list(number), faces
+
+
+class RidgeNoise(unittest.TestCase):
+    """The six arms of a star are its ridges."""
+
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.mesh = Path(holder.name) / "star.off"
+        meshes.write_off(self.mesh, *star())
+
+    def runs(self, *options):
+        run = process.run([RIDGE_NOISE, self.mesh, "--tolerance", "0.08", *options], 60)
+        self.assertEqual(run.trouble, "")
+        report = json.loads(run.output)
+        self.assertEqual((report["ridges"], report["compact"]), (6, 6))
+        return report["noisy"]
+
+    def test_the_star_is_closed(self):
+        self.assertAlmostEqual(meshes.volume(*star()), 19, 12)
+
+    def test_arms_stay_put_under_small_noise(self):
+        for kind in ([], ["--along-normals"]):
+            for run in self.runs("--amplitudes", "0", "0.01", "0.02", *kind):
+                self.assertEqual((run["ridges"], run["stay"], run["stay_compact"], run["extra"]), (6, 6, 6, 0), run)
+
+    def test_they_do_not_under_huge_noise(self):
+        for run in self.runs("--amplitudes", "0.6"):
+            self.assertLess(run["stay"], 6)
+            self.assertEqual(run["stay"] + run["extra"], run["ridges"])
+            self.assertEqual(run["stay"] + run["grew"] + run["shrank"] + run["gone"], 6)
+
+    def test_copies_are_seeded(self):
+        self.assertEqual(self.runs("--amplitudes", "0.3"), self.runs("--amplitudes", "0.3"))
+        first, second, _ = self.runs("--amplitudes", "0.3")
+        self.assertNotEqual(first | {"seed": 0}, second | {"seed": 0})
+
+    def test_table(self):
+        printed = io.StringIO()
+        with redirect_stdout(printed):
+            decompose_bench.main([str(self.mesh.parent), "--tolerance", "0.08", "--noise-program", RIDGE_NOISE,
+                                  "--ridge-noise", "2"])
+        row = next(line.split() for line in printed.getvalue().splitlines() if line.startswith("all"))
+        self.assertEqual(row, ["all", "6", "6", *["|", "100.0", "100.0", "0.00"] * 4,
+                               "|", "0.00", "0.00", "0.00", "|", "100.0", "100.0"])
+
+
 class EndToEnd(unittest.TestCase):
     def setUp(self):
         holder = tempfile.TemporaryDirectory()
@@ -185,5 +253,6 @@ class EndToEnd(unittest.TestCase):
 
 if __name__ == "__main__":
     CHECKER = sys.argv.pop(1)
+    RIDGE_NOISE = sys.argv.pop(1)
     HACD = sys.argv.pop(1) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else ""
     unittest.main()
