@@ -122,6 +122,7 @@ def main(words):
         elif options.fig_2_35:
             result["figure_2_35"] = experiments.figure_2_35(settings, paths, category, people, options.tolerances, jobs)
         elif options.ridge_noise:
+            result["settings"] = {"tolerance": settings.tolerance, "threads": settings.threads}
             result["ridge_noise"] = ridge_noise.ridge_noise(settings, options.noise_program, options.ridge_noise,
                                                             options.along_normals, paths, category, jobs)
         else:

@@ -40,6 +40,9 @@ BOXER = textwrap.dedent("""\
     with open(option["--hulls"], "w") as out:
         out.write("o box\\n" + "".join("v %r %r %r\\n" % p for p in corners))
         out.write("".join("f %d %d %d\\n" % tuple(c + 1 for c in f) for f in {sides!r}))
+    if "--glb" in option:
+        with open(option["--glb"], "w") as out:
+            out.write({scene})
     with open(option["--json"], "w") as out:
         json.dump({{"parts": 1, "tolerance": 0.1, "concavity": 0, "volume_ratio": {ratio}, "watertight": True,
                    "radius": math.sqrt(3) / 2, "seconds": {{}}}}, out)
@@ -110,6 +113,26 @@ class Facts(unittest.TestCase):
 
     def test_categories_have_the_benchmarks_names(self):
         self.assertEqual(set(TABLE_2_3), set(meshes.PRINCETON) - {"(none)"})
+
+
+class Targets(unittest.TestCase):
+    LIMITS = {("valley", 0.1): {"parts": 8.0, "volume_ratio": 1.36, "cpu_seconds": 0.8, "cpu_seconds_max": 4.0},
+              ("hull", 0.1): {"parts": 8.0, "volume_ratio": 1.25, "cpu_seconds": 1.2, "uncovered": 0.005,
+                              "uncovered_max": 0.05, "exposure_max": 0.1},
+              ("hull", 0.05): {"parts": 16.0, "volume_ratio": 1.11, "exposure_max": 0.05}}
+
+    def missed(self, measure, tolerance, changed):
+        best = dict.fromkeys(summary.totals([]), 0) | {"meshes": 3, "finished": 3} | changed
+        reached = summary.targets(best, Settings(Path(), measure=measure, tolerance=tolerance), princeton=True)
+        return sum(state is False for text, state in reached if not text.startswith("stretch"))
+
+    def test_each_holds_at_its_limit_and_not_above(self):
+        for (measure, tolerance), limits in self.LIMITS.items():
+            for name, limit in (limits | {"hull_outside_max": 1e-9}).items():
+                self.assertEqual(self.missed(measure, tolerance, {name: limit}), 0, (measure, name))
+                self.assertEqual(self.missed(measure, tolerance, {name: limit * 1.01}), 1, (measure, name))
+            self.assertEqual(self.missed(measure, tolerance, {"finished": 2}), 1)
+            self.assertEqual(self.missed(measure, tolerance, {"broken_promises": 1}), 1)
 
 
 class Process(unittest.TestCase):
@@ -200,17 +223,18 @@ class EndToEnd(unittest.TestCase):
         (self.folder / "boxes").mkdir()
         meshes.write_off(self.folder / "boxes" / "cube.off", CORNERS, SIDES)
 
-    def boxer(self, ratio):
+    def boxer(self, ratio, scene="'glTF'"):
         program = self.folder / "boxer"
-        program.write_text(BOXER.format(bench=str(Path(__file__).resolve().parent), sides=SIDES, ratio=ratio))
+        bench = str(Path(__file__).resolve().parent)
+        program.write_text(BOXER.format(bench=bench, sides=SIDES, ratio=ratio, scene=scene))
         program.chmod(program.stat().st_mode | stat.S_IXUSR)
         return program
 
-    def bench(self, *options, ratio=1.0):
+    def bench(self, *options, ratio=1.0, scene="'glTF'"):
         printed = io.StringIO()
         with redirect_stdout(printed):
-            decompose_bench.main([str(self.folder / "boxes"), "--program", str(self.boxer(ratio)), "--checker", CHECKER,
-                                  *options])
+            decompose_bench.main([str(self.folder / "boxes"), "--program", str(self.boxer(ratio, scene)),
+                                  "--checker", CHECKER, *options])
         return printed.getvalue()
 
     def test_table(self):
@@ -234,6 +258,23 @@ class EndToEnd(unittest.TestCase):
         self.assertIn("within 0 of the mesh as given", self.bench("--rotations", "3"))
         self.assertIn("the same bytes on 1 of 1", self.bench("--determinism"))
         self.assertIn("1.000", self.bench("--remove", "0.1"))
+
+    def test_different_bytes_are_seen(self):
+        printed = self.bench("--determinism", scene='option["--threads"]')
+        self.assertIn("cube: different: parts", printed)
+        self.assertIn("the same bytes on 0 of 1", printed)
+
+    def test_rand_error_by_tolerance(self):
+        people = self.folder / "seg" / "cube"
+        people.mkdir(parents=True)
+        meshes.write_off(self.folder / "boxes" / "unseen.off", CORNERS, SIDES)  # that nobody has segmented
+        for k, last in enumerate((0, 1)):
+            (people / f"cube_{k}.seg").write_text("0\n" * 11 + f"{last}\n")
+        printed = self.bench("--fig-2-35", "--seg-dir", str(people.parent), "--tolerances", "0.1")
+        # One label: all pairs agree with the first, all but 11 of 66 with the second.
+        row = next(line.split() for line in printed.splitlines() if line.startswith("boxes"))
+        self.assertEqual(row[1:6], ["0.167"] + ["0.083"] * 4)
+        self.assertIn("0 runs did not finish", printed)
 
     def test_peer(self):
         if not HACD:
