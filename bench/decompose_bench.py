@@ -11,7 +11,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from harness import experiments, history, meshes, summary  # noqa: E402
+from harness import experiments, history, meshes, ridge_noise, summary  # noqa: E402
 from harness.decompose import Settings, decompose  # noqa: E402
 from harness.rand_error import People  # noqa: E402
 
@@ -25,6 +25,7 @@ def parse(words):
     add("--program", type=Path, default=BIN / "partwise", help="the program to measure")
     add("--checker", type=Path, default=BIN / "decompose_check", help="the judge")
     add("--hacd-program", type=Path, default=BIN / "hacd_peer", help="the peer")
+    add("--noise-program", type=Path, default=BIN / "ridge_noise", help="that --ridge-noise asks")
     add("--measure", choices=["hull", "valley"], default="hull")
     add("--tolerance", type=float, default=0.1, help="share of the bounding-sphere radius")
     add("--max-hull-vertices", type=int, default=0, help="0: no limit")
@@ -46,12 +47,14 @@ def parse(words):
     add("--fig-2-35", action="store_true", help="Rand error by tolerance (needs --seg-dir)")
     add("--tolerances", type=float, nargs="+", default=[0.04, 0.05, 0.06, 0.07, 0.08, 0.12, 0.15, 0.2],
         help="that --fig-2-35 chooses from, with 0.09 and 0.1")
+    add("--ridge-noise", type=int, metavar="N", help="convex ridges that stay put in N noisy copies")
+    add("--along-normals", action="store_true", help="the vertices of those copies, else in a ball")
     add("--hacd", type=int, metavar="N", help="after the table: Bullet's HACD on N of the meshes")
     add("--hacd-faces", type=int, default=2000, help="that HACD's input is simplified to")
     options = parser.parse_args(words)
     if options.fig_2_35 and not options.seg_dir:
         parser.error("--fig-2-35 needs --seg-dir")
-    needed = [options.program]
+    needed = [options.noise_program if options.ridge_noise else options.program]
     if options.check or options.remove or options.hacd:
         needed.append(options.checker)
     if options.hacd:
@@ -118,6 +121,10 @@ def main(words):
             result["removal"] = experiments.removal(settings, paths, options.remove, jobs)
         elif options.fig_2_35:
             result["figure_2_35"] = experiments.figure_2_35(settings, paths, category, people, options.tolerances, jobs)
+        elif options.ridge_noise:
+            result["settings"] = {"tolerance": settings.tolerance, "threads": settings.threads}
+            result["ridge_noise"] = ridge_noise.ridge_noise(settings, options.noise_program, options.ridge_noise,
+                                                            options.along_normals, paths, category, jobs)
         else:
             result |= run_table(options, settings, paths, category, people, jobs)
             if options.hacd:

@@ -1,7 +1,8 @@
 """The harness on small answers known beforehand; and from end to end with a program of a few lines in place of partwise,
-which puts a box around every mesh: decompose_bench_test.py CHECKER [HACD]"""
+which puts a box around every mesh: decompose_bench_test.py CHECKER RIDGE_NOISE [HACD]"""
 
 import io
+import json
 import math
 import stat
 import sys
@@ -17,7 +18,7 @@ from harness.decompose import Settings, decompose
 from harness.dissertation import AVERAGE, TABLE_2_3
 from harness.rand_error import People, rand_error
 
-CHECKER = HACD = ""
+CHECKER = RIDGE_NOISE = HACD = ""
 CORNERS = [(x, y, z) for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)]
 SIDES = [(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4),
          (1, 5, 7), (1, 7, 3)]
@@ -39,6 +40,9 @@ BOXER = textwrap.dedent("""\
     with open(option["--hulls"], "w") as out:
         out.write("o box\\n" + "".join("v %r %r %r\\n" % p for p in corners))
         out.write("".join("f %d %d %d\\n" % tuple(c + 1 for c in f) for f in {sides!r}))
+    if "--glb" in option:
+        with open(option["--glb"], "w") as out:
+            out.write({scene})
     with open(option["--json"], "w") as out:
         json.dump({{"parts": 1, "tolerance": 0.1, "concavity": 0, "volume_ratio": {ratio}, "watertight": True,
                    "radius": math.sqrt(3) / 2, "seconds": {{}}}}, out)
@@ -111,6 +115,26 @@ class Facts(unittest.TestCase):
         self.assertEqual(set(TABLE_2_3), set(meshes.PRINCETON) - {"(none)"})
 
 
+class Targets(unittest.TestCase):
+    LIMITS = {("valley", 0.1): {"parts": 8.0, "volume_ratio": 1.36, "cpu_seconds": 0.8, "cpu_seconds_max": 4.0},
+              ("hull", 0.1): {"parts": 8.0, "volume_ratio": 1.25, "cpu_seconds": 1.2, "uncovered": 0.005,
+                              "uncovered_max": 0.05, "exposure_max": 0.1},
+              ("hull", 0.05): {"parts": 16.0, "volume_ratio": 1.11, "exposure_max": 0.05}}
+
+    def missed(self, measure, tolerance, changed):
+        best = dict.fromkeys(summary.totals([]), 0) | {"meshes": 3, "finished": 3} | changed
+        reached = summary.targets(best, Settings(Path(), measure=measure, tolerance=tolerance), princeton=True)
+        return sum(state is False for text, state in reached if not text.startswith("stretch"))
+
+    def test_each_holds_at_its_limit_and_not_above(self):
+        for (measure, tolerance), limits in self.LIMITS.items():
+            for name, limit in (limits | {"hull_outside_max": 1e-9}).items():
+                self.assertEqual(self.missed(measure, tolerance, {name: limit}), 0, (measure, name))
+                self.assertEqual(self.missed(measure, tolerance, {name: limit * 1.01}), 1, (measure, name))
+            self.assertEqual(self.missed(measure, tolerance, {"finished": 2}), 1)
+            self.assertEqual(self.missed(measure, tolerance, {"broken_promises": 1}), 1)
+
+
 class Process(unittest.TestCase):
     def test_cpu_time_is_counted_and_sleep_is_not(self):
         busy = process.run([sys.executable, "-c", "import time\nwhile time.process_time() < 0.3: pass"], 30)
@@ -124,6 +148,73 @@ class Process(unittest.TestCase):
         self.assertEqual(process.run([sys.executable, "-c", ""], 30).trouble, "")
 
 
+def star(arm=3):
+    """Six square arms of unit width about a unit cube, as unit squares cut in two."""
+    cells = {(0, 0, 0)} | {tuple(sign * step if k == axis else 0 for k in range(3))
+                           for axis in range(3) for sign in (-1, 1) for step in range(1, arm + 1)}
+    number, faces = {}, []
+    for cell in sorted(cells):
+        for axis in range(3):
+            for up in (0, 1):
+                if tuple(cell[k] + (2 * up - 1) * (k == axis) for k in range(3)) in cells:
+                    continue
+                square = []
+                for u, v in ((0, 0), (1, 0), (1, 1), (0, 1)):
+                    corner = list(cell)
+                    corner[axis] += up
+                    corner[(axis + 1) % 3] += u
+                    corner[(axis + 2) % 3] += v
+                    square.append(number.setdefault(tuple(map(float, corner)), len(number)))
+                a, b, c, d = square if up else square[::-1]
+                faces += [(a, b, c), (a, c, d)]
+    return list(number), faces
+
+
+class RidgeNoise(unittest.TestCase):
+    """The six arms of a star are its ridges."""
+
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.mesh = Path(holder.name) / "star.off"
+        meshes.write_off(self.mesh, *star())
+
+    def runs(self, *options):
+        run = process.run([RIDGE_NOISE, self.mesh, "--tolerance", "0.08", *options], 60)
+        self.assertEqual(run.trouble, "")
+        report = json.loads(run.output)
+        self.assertEqual((report["ridges"], report["compact"]), (6, 6))
+        return report["noisy"]
+
+    def test_the_star_is_closed(self):
+        self.assertAlmostEqual(meshes.volume(*star()), 19, 12)
+
+    def test_arms_stay_put_under_small_noise(self):
+        for kind in ([], ["--along-normals"]):
+            for run in self.runs("--amplitudes", "0", "0.01", "0.02", *kind):
+                self.assertEqual((run["ridges"], run["stay"], run["stay_compact"], run["extra"]), (6, 6, 6, 0), run)
+
+    def test_they_do_not_under_huge_noise(self):
+        for run in self.runs("--amplitudes", "0.6"):
+            self.assertLess(run["stay"], 6)
+            self.assertEqual(run["stay"] + run["extra"], run["ridges"])
+            self.assertEqual(run["stay"] + run["grew"] + run["shrank"] + run["gone"], 6)
+
+    def test_copies_are_seeded(self):
+        self.assertEqual(self.runs("--amplitudes", "0.3"), self.runs("--amplitudes", "0.3"))
+        first, second, _ = self.runs("--amplitudes", "0.3")
+        self.assertNotEqual(first | {"seed": 0}, second | {"seed": 0})
+
+    def test_table(self):
+        printed = io.StringIO()
+        with redirect_stdout(printed):
+            decompose_bench.main([str(self.mesh.parent), "--tolerance", "0.08", "--noise-program", RIDGE_NOISE,
+                                  "--ridge-noise", "2"])
+        row = next(line.split() for line in printed.getvalue().splitlines() if line.startswith("all"))
+        self.assertEqual(row, ["all", "6", "6", *["|", "100.0", "100.0", "0.00"] * 4,
+                               "|", "0.00", "0.00", "0.00", "|", "100.0", "100.0"])
+
+
 class EndToEnd(unittest.TestCase):
     def setUp(self):
         holder = tempfile.TemporaryDirectory()
@@ -132,17 +223,18 @@ class EndToEnd(unittest.TestCase):
         (self.folder / "boxes").mkdir()
         meshes.write_off(self.folder / "boxes" / "cube.off", CORNERS, SIDES)
 
-    def boxer(self, ratio):
+    def boxer(self, ratio, scene="'glTF'"):
         program = self.folder / "boxer"
-        program.write_text(BOXER.format(bench=str(Path(__file__).resolve().parent), sides=SIDES, ratio=ratio))
+        bench = str(Path(__file__).resolve().parent)
+        program.write_text(BOXER.format(bench=bench, sides=SIDES, ratio=ratio, scene=scene))
         program.chmod(program.stat().st_mode | stat.S_IXUSR)
         return program
 
-    def bench(self, *options, ratio=1.0):
+    def bench(self, *options, ratio=1.0, scene="'glTF'"):
         printed = io.StringIO()
         with redirect_stdout(printed):
-            decompose_bench.main([str(self.folder / "boxes"), "--program", str(self.boxer(ratio)), "--checker", CHECKER,
-                                  *options])
+            decompose_bench.main([str(self.folder / "boxes"), "--program", str(self.boxer(ratio, scene)),
+                                  "--checker", CHECKER, *options])
         return printed.getvalue()
 
     def test_table(self):
@@ -167,6 +259,23 @@ class EndToEnd(unittest.TestCase):
         self.assertIn("the same bytes on 1 of 1", self.bench("--determinism"))
         self.assertIn("1.000", self.bench("--remove", "0.1"))
 
+    def test_different_bytes_are_seen(self):
+        printed = self.bench("--determinism", scene='option["--threads"]')
+        self.assertIn("cube: different: parts", printed)
+        self.assertIn("the same bytes on 0 of 1", printed)
+
+    def test_rand_error_by_tolerance(self):
+        people = self.folder / "seg" / "cube"
+        people.mkdir(parents=True)
+        meshes.write_off(self.folder / "boxes" / "unseen.off", CORNERS, SIDES)  # that nobody has segmented
+        for k, last in enumerate((0, 1)):
+            (people / f"cube_{k}.seg").write_text("0\n" * 11 + f"{last}\n")
+        printed = self.bench("--fig-2-35", "--seg-dir", str(people.parent), "--tolerances", "0.1")
+        # One label: all pairs agree with the first, all but 11 of 66 with the second.
+        row = next(line.split() for line in printed.splitlines() if line.startswith("boxes"))
+        self.assertEqual(row[1:6], ["0.167"] + ["0.083"] * 4)
+        self.assertIn("0 runs did not finish", printed)
+
     def test_peer(self):
         if not HACD:
             self.skipTest("built without Bullet's HACD")
@@ -185,5 +294,6 @@ class EndToEnd(unittest.TestCase):
 
 if __name__ == "__main__":
     CHECKER = sys.argv.pop(1)
+    RIDGE_NOISE = sys.argv.pop(1)
     HACD = sys.argv.pop(1) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else ""
     unittest.main()

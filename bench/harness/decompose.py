@@ -57,14 +57,21 @@ class Files:
         return self.folder / "hulls.obj"
 
     @property
+    def scene(self):
+        return self.folder / "parts.glb"
+
+    @property
     def report(self):
         return self.folder / "report.json"
 
 
-def run_program(settings, mesh, files, threads=None):
+def run_program(settings, mesh, files, threads=None, scene=False):
+    """`scene`: writes the coloured parts as well, which the other measurements have no use for."""
     command = [settings.program, "decompose", mesh, "--tolerance", settings.tolerance, "--measure", settings.measure,
                "--threads", threads or settings.threads, "--labels", files.labels, "--hulls", files.hulls,
                "--json", files.report, "--quiet"]
+    if scene:
+        command += ["--glb", files.scene]
     if settings.max_hull_vertices:
         command += ["--max-hull-vertices", settings.max_hull_vertices]
     return process.run(command, settings.time_limit)

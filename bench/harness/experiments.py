@@ -40,15 +40,19 @@ def rotations(settings, paths, count, jobs):
 
 
 def determinism(settings, paths, jobs):
-    """Bytes of labels, hulls and report (less its times) for one thread, two, and two again."""
+    """Bytes of labels, hulls, coloured parts and report (less its times) for one thread, two, and two again."""
     def bytes_of(path, threads, files):
-        run = run_program(settings, path, files, threads)
+        run = run_program(settings, path, files, threads, scene=True)
         if run.trouble:
             return run.trouble
-        report = json.loads(files.report.read_text())
-        report.pop("seconds", None)
-        found = {"labels": files.labels.read_bytes(), "hulls": files.hulls.read_bytes(), "report": report}
-        for file in (files.labels, files.hulls, files.report):
+        written = {"labels": files.labels, "hulls": files.hulls, "parts": files.scene, "report": files.report}
+        missing = [file.name for file in written.values() if not file.exists()]
+        if missing:
+            return "exit status 0 without " + ", ".join(missing)
+        found = {name: file.read_bytes() for name, file in written.items()}
+        found["report"] = json.loads(found["report"])
+        found["report"].pop("seconds", None)
+        for file in written.values():
             file.unlink()
         return found
 
@@ -85,19 +89,21 @@ def removal(settings, paths, shares, jobs):
                 found.append((result, None if union is None else union / intact))
         return found
 
-    rows, worst = [], {}
+    rows, outcomes = [], {}
     for path, found in zip(paths, jobs(one, paths)):
         row = [path.stem]
         for share, (result, ratio) in zip(shares, found):
             row += [result.trouble or cell(result.parts), cell(ratio, ".3f"), cell(result.cpu_seconds, ".2f"),
                     "; ".join(result.failures) or "-"]
-            worst.setdefault(share, []).append((result.parts, ratio))
+            outcomes.setdefault(share, []).append((result.parts, ratio, bool(result.trouble), bool(result.failures)))
         rows.append(row)
     header = ["mesh"] + [text for share in shares for text in (f"{share:.0%} gone: parts", "ratio", "CPU s", "broken")]
     print(table(header, rows))
-    return {f"{share:g}": {"parts": mean(p for p, _ in found), "volume_ratio": mean(r for _, r in found),
-                           "parts_max": largest(p for p, _ in found), "volume_ratio_max": largest(r for _, r in found)}
-            for share, found in worst.items()}
+    return {f"{share:g}": {"parts": mean(row[0] for row in found), "volume_ratio": mean(row[1] for row in found),
+                           "parts_max": largest(row[0] for row in found),
+                           "volume_ratio_max": largest(row[1] for row in found),
+                           "unfinished": sum(row[2] for row in found), "broken_promises": sum(row[3] for row in found)}
+            for share, found in outcomes.items()}
 
 
 def figure_2_35(settings, paths, category, people, tolerances, jobs):
@@ -105,17 +111,20 @@ def figure_2_35(settings, paths, category, people, tolerances, jobs):
     tolerances = sorted({0.09, 0.1, *tolerances})
 
     def one(path):
-        errors = {}
-        for tolerance in tolerances:
+        errors, unfinished = {}, 0
+        for tolerance in tolerances if people.of(path) else []:
             with tempfile.TemporaryDirectory() as folder:
                 files = Files(Path(folder))
-                if not run_program(replace(settings, tolerance=tolerance), path, files).trouble:
+                if run_program(replace(settings, tolerance=tolerance), path, files).trouble:
+                    unfinished += 1
+                else:
                     errors[tolerance] = people.error(path, read_labels(files.labels))
-        return errors, people.among_themselves(path)
+        return errors, people.among_themselves(path), unfinished
 
-    groups = {}
+    groups, unfinished = {}, 0
     for path, found in zip(paths, jobs(one, paths)):
-        groups.setdefault(category(path), []).append(found)
+        groups.setdefault(category(path), []).append(found[:2])
+        unfinished += found[2]
     rows, columns = [], []
     for name, group in groups.items():
         at = {t: mean(errors.get(t) for errors, _ in group) for t in tolerances}
@@ -131,8 +140,9 @@ def figure_2_35(settings, paths, category, people, tolerances, jobs):
     rows.append(["all", *(cell(value, ".3f") for value in averages), ""])
     print("Rand error, as Figure 2.35; tolerances " + " ".join(f"{t:g}" for t in tolerances))
     print(table(["category", "people", "best a mesh", "best a category", "0.09", "0.1", "at"], rows))
+    print(f"{unfinished} runs did not finish")
     names = ("people", "best_per_mesh", "best_per_category", "at_0.09", "at_0.1")
-    return {"tolerances": tolerances, **dict(zip(names, averages))}
+    return {"tolerances": tolerances, "unfinished": unfinished, **dict(zip(names, averages))}
 
 
 def hacd(settings, program, faces, paths, jobs):
@@ -153,15 +163,16 @@ def hacd(settings, program, faces, paths, jobs):
         peer = [check["hulls"], check["volume_ratio"], seconds, check["interior_uncovered"],
                 check["exposure"]] if check else [None, None, seconds, None, None]
         own = [ours.parts, ours.ratio, ours.cpu_seconds, ours.checked("interior_uncovered"), ours.checked("exposure")]
-        sums.append(own + peer)
+        if check and not ours.trouble:
+            sums.append(own + peer)
         rows.append([path.stem, *_figures(own), *_figures(peer), trouble or ours.trouble or "-"])
     means = [mean(row[k] for row in sums) for k in range(10)]
-    rows.append(["mean", *_figures(means[:5]), *_figures(means[5:]), ""])
+    rows.append([f"mean of {len(sums)}", *_figures(means[:5]), *_figures(means[5:]), ""])
     columns = ["parts", "ratio", "CPU s", "lost %", "sticks out"]
     print(table(["mesh", *columns, *("HACD: " + columns[0], *columns[1:]), "trouble"], rows))
     print(f"HACD on meshes simplified to {faces} faces, at the same tolerance; its hulls need not enclose the mesh")
     names = ("parts", "volume_ratio", "cpu_seconds", "uncovered", "exposure")
-    return {"meshes": len(paths), "faces": faces, "ours": dict(zip(names, means[:5])),
+    return {"meshes": len(paths), "both_finished": len(sums), "faces": faces, "ours": dict(zip(names, means[:5])),
             "hacd": dict(zip(names, means[5:]))}
 
 

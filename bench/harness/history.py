@@ -27,7 +27,9 @@ def commit():
     def git(*words):
         return subprocess.run(["git", "-C", BENCH, *words], capture_output=True, text=True, check=False).stdout.strip()
     name = git("rev-parse", "--short=12", "HEAD")
-    return name + "+" if name and git("status", "--porcelain", "--untracked-files=no") else name
+    # Not the history itself: a second record of the same build would seem to come from changed sources.
+    changed = git("status", "--porcelain", "--untracked-files=no", "--", ":(top)", ":(top,exclude)bench/history")
+    return name + "+" if name and changed else name
 
 
 def record(name, entry):
