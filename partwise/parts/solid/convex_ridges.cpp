@@ -15,7 +15,7 @@
 namespace partwise {
 namespace {
 
-constexpr double kOnHullDepth = 0.4;  // of the tolerance
+constexpr double kOnHullDepth = 0.5;  // of the tolerance
 
 PartHull part_hull(const Mesh& hull, const std::vector<int>& local) {
   PartHull result{{}, hull_planes(hull)};
@@ -70,22 +70,41 @@ std::vector<EdgesOfSource> by_source(const std::vector<std::pair<int, int>>& edg
   return groups;
 }
 
-// Whether no vertex of the valley is deeper inside the hull than `depth`.
-bool runs_on_hull(const PartGraph& part, const Valley& valley,
-                  const Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>& planes, double depth) {
-  // From the middle outwards: there an ordinary valley is deep, which ends the search.
-  const std::size_t n = valley.path.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t k = i % 2 ? n / 2 - (i + 1) / 2 : n / 2 + i / 2;
-    if (k >= n) continue;
-    const Point p = part.positions.row(valley.path[k]);
-    bool near = false;
-    for (Eigen::Index f = 0; f < planes.rows() && !near; ++f)
-      near = planes(f, 3) - planes(f, 0) * p[0] - planes(f, 1) * p[1] - planes(f, 2) * p[2] <= depth;
-    if (!near) return false;
+// Which vertices of a part are no deeper inside its hull than a depth; each is asked once.
+class NearHull {
+ public:
+  NearHull(const PartGraph& part, const PartHull& hull, double depth)
+      : part_(part), hull_(hull), depth_(depth), near_(part.vertices.size(), kUnknown) {}
+
+  bool holds(const Valley& valley) {
+    // From the middle outwards: there an ordinary valley is deep, which ends the search.
+    const std::size_t n = valley.path.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t k = i % 2 ? n / 2 - (i + 1) / 2 : n / 2 + i / 2;
+      if (k < n && !near(valley.path[k])) return false;
+    }
+    return true;
   }
-  return true;
-}
+
+ private:
+  static constexpr signed char kUnknown = -1;
+
+  bool near(int v) {
+    if (near_[v] == kUnknown) {
+      const Point p = part_.positions.row(v);
+      const auto& planes = hull_.planes;
+      near_[v] = 0;
+      for (Eigen::Index f = 0; f < planes.rows() && !near_[v]; ++f)
+        near_[v] = planes(f, 3) - planes(f, 0) * p[0] - planes(f, 1) * p[1] - planes(f, 2) * p[2] <= depth_;
+    }
+    return near_[v] != 0;
+  }
+
+  const PartGraph& part_;
+  const PartHull& hull_;
+  double depth_;
+  std::vector<signed char> near_;
+};
 
 bool runs_inside(const SurfaceQuery& surface, const Point& a, const Point& b) {
   for (const double t : {0.5, 0.25, 0.75})
@@ -94,8 +113,7 @@ bool runs_inside(const SurfaceQuery& surface, const Point& a, const Point& b) {
 }
 
 // Fills in profile and concavity of a valley whose path is known; returns the path's length.
-double measure(Valley& valley, const PartGraph& part,
-               const Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>& planes, double tolerance) {
+double measure(Valley& valley, const PartGraph& part, NearHull& near_hull, double tolerance) {
   std::vector<Point> points(valley.path.size());
   for (std::size_t k = 0; k < points.size(); ++k) points[k] = part.positions.row(valley.path[k]);
   double length = 0;
@@ -103,7 +121,7 @@ double measure(Valley& valley, const PartGraph& part,
   valley.profile = flatten_valley(points);
   const std::vector<double> concavity = valley_concavity(valley.profile, tolerance);
   valley.concavity = *std::max_element(concavity.begin(), concavity.end());
-  valley.on_hull = valley.concavity > tolerance && runs_on_hull(part, valley, planes, kOnHullDepth * tolerance);
+  valley.on_hull = valley.concavity > tolerance && near_hull.holds(valley);
   return length;
 }
 
@@ -127,22 +145,39 @@ PartHull part_hull(const PartGraph& part, const Mesh& hull, std::span<const int>
 bool has_deep_valley(const PartGraph& part, const PartHull& hull, const SurfaceQuery& surface, double tolerance) {
   std::vector<std::pair<int, int>> edges = hull.edges;
   const auto span = [&](const std::pair<int, int>& e) {
-    return (part.positions.row(e.first) - part.positions.row(e.second)).squaredNorm();
+    return (part.positions.row(e.first) - part.positions.row(e.second)).norm();
   };
   // Long bridges first: they are the likely ones.
   std::stable_sort(edges.begin(), edges.end(), [&](const auto& x, const auto& y) { return span(x) > span(y); });
+  std::vector<std::vector<std::size_t>> at(part.vertices.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    at[edges[i].first].push_back(i);
+    at[edges[i].second].push_back(i);
+  }
+  std::vector<char> settled(edges.size(), 0);
   PathSearch search(part);
-  for (const auto& [a, b] : edges) {
-    const double bridge = std::sqrt(span({a, b}));
-    if (std::isfinite(search.bounded_length(a, b, std::hypot(bridge, 2 * tolerance)))) continue;
+  NearHull near_hull(part, hull, kOnHullDepth * tolerance);
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (settled[i]) continue;
+    const auto [a, b] = edges[i];
+    if (std::isfinite(search.bounded_length(a, b, std::hypot(span(edges[i]), 2 * tolerance)))) continue;
     if (runs_inside(surface, part.positions.row(a), part.positions.row(b))) continue;
-    const int target = b;
-    search.from(a, std::span(&target, 1));
-    Valley valley;
-    valley.path = search.path_to(b);
-    if (valley.path.empty()) continue;
-    measure(valley, part, hull.planes, tolerance);
-    if (valley.concavity > tolerance && !valley.on_hull) return true;
+    // One search for all bridges of the end that has more of them.
+    const int source = at[a].size() >= at[b].size() ? a : b;
+    std::vector<int> targets;
+    for (const std::size_t k : at[source])
+      if (!settled[k]) targets.push_back(edges[k].first == source ? edges[k].second : edges[k].first);
+    search.from(source, targets);
+    for (const std::size_t k : at[source]) {
+      if (settled[k]) continue;
+      settled[k] = 1;
+      Valley valley;
+      valley.path = search.path_to(edges[k].first == source ? edges[k].second : edges[k].first);
+      if (valley.path.empty()) continue;
+      measure(valley, part, near_hull, tolerance);
+      const Point p = part.positions.row(edges[k].first), q = part.positions.row(edges[k].second);
+      if (valley.concavity > tolerance && !valley.on_hull && !runs_inside(surface, p, q)) return true;
+    }
   }
   return false;
 }
@@ -150,6 +185,7 @@ bool has_deep_valley(const PartGraph& part, const PartHull& hull, const SurfaceQ
 Bridges find_bridges(const PartGraph& part, const PartHull& hull, const SurfaceQuery& surface, double tolerance) {
   const auto& edges = hull.edges;
   tbb::enumerable_thread_specific<PathSearch> searches([&] { return PathSearch(part); });
+  tbb::enumerable_thread_specific<NearHull> near_hulls([&] { return NearHull(part, hull, kOnHullDepth * tolerance); });
 
   // A path of length l over a bridge of length L is nowhere deeper than sqrt(l^2 - L^2) / 2: most are settled by that.
   std::vector<double> shallow_length(edges.size());
@@ -194,7 +230,7 @@ Bridges find_bridges(const PartGraph& part, const PartHull& hull, const SurfaceQ
       valley.path = search.path_to(target(i));
       if (valley.path.empty()) continue;
       if (source != open[i].first) std::reverse(valley.path.begin(), valley.path.end());
-      lengths[i] = measure(valley, part, hull.planes, tolerance);
+      lengths[i] = measure(valley, part, near_hulls.local(), tolerance);
     }
   });
   for (std::size_t i = 0; i < open.size(); ++i) {

@@ -26,7 +26,7 @@ struct Valley {
   std::vector<int> path;        // local vertices, from one end of the bridge to the other
   std::vector<Point2> profile;  // the flattened path
   double concavity = 0;
-  bool on_hull = false;  // deep, but no vertex is inside the hull by more than 0.4 of the tolerance
+  bool on_hull = false;  // deep, but no vertex is inside the hull by more than half the tolerance
 };
 
 struct Bridges {

@@ -98,7 +98,8 @@ std::vector<HullPart> valley_parts(const Scene& scene, double tolerance, const D
     const PartGraph part = part_graph(scene.mesh, merged.faces);
     return !has_deep_valley(part, part_hull(part, merged.hull, merged.source), scene.surface, tolerance);
   };
-  PartMerging merging(scene.mesh, scene.space, std::move(parts), accept, {.minimum_thickness = thickness});
+  PartMerging merging(scene.mesh, scene.space, std::move(parts), accept,
+                      {thickness, largest_air(scene.space, tolerance)});
   do merging.merge(progress);
   while (merging.dissolve(progress) > 0);
   parts = merging.parts();

@@ -1,7 +1,5 @@
 #include "partwise/parts/solid/hull_decomposition.h"
 
-#include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "partwise/geometry/convex_hull.h"
@@ -13,9 +11,6 @@ namespace partwise {
 namespace {
 
 constexpr double kPieceTolerance = 0.35;  // of the tolerance: what pieces are cut to, so that merging has room
-// No merge takes in more air than this times the square of the tolerance (in R), as a share of the solid: where parts
-// are long and thin a hull can keep within the tolerance and yet be mostly air.
-constexpr double kLargestAir = 10;
 
 // Parts that break the promise once their hulls are simplified are cut until they keep it.
 void keep_promise(const Mesh& mesh, const HullPromise& promise, std::vector<HullPart>& parts,
@@ -50,10 +45,7 @@ std::vector<HullPart> hull_decomposition(const Mesh& mesh, const SurfaceQuery& s
   keep_promise(mesh, promise, parts, settings.minimum_thickness);
 
   const AcceptMerge accept = [&](const HullPart& merged) { return promise.holds(merged.hull); };
-  const double solid = space.volume * static_cast<double>(space.solid.size());
-  const MergeSettings merging{.minimum_thickness = settings.minimum_thickness,
-                              .largest_air = solid > 0 ? kLargestAir * std::pow(promise.tolerance(), 2) * solid
-                                                       : std::numeric_limits<double>::infinity()};
+  const MergeSettings merging{settings.minimum_thickness, largest_air(space, promise.tolerance())};
   {
     PartMerging merge(mesh, space, std::move(parts), accept, merging);
     do merge.merge(progress);

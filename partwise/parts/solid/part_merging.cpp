@@ -94,6 +94,12 @@ Vertices corners_of(const Mesh& mesh, const std::vector<int>& faces) {
   return mesh.vertices(vertices_of(mesh, faces), Eigen::all);
 }
 
+double largest_air(const SpaceSamples& space, double tolerance) {
+  constexpr double kShare = 10;
+  const double solid = space.volume * static_cast<double>(space.solid.size());
+  return solid > 0 ? kShare * tolerance * tolerance * solid : std::numeric_limits<double>::infinity();
+}
+
 void Corners::append(const Vertices& more, const std::vector<int>& their_source) {
   points.conservativeResize(points.rows() + more.rows(), 3);
   points.bottomRows(more.rows()) = more;
