@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include "partwise/geometry/convex_hull.h"
@@ -14,6 +15,7 @@ namespace partwise {
 namespace {
 
 constexpr double kOnHullDepth = 0.25;  // of the tolerance
+constexpr double kHollowStep = 0.5;    // of the tolerance: how far a walk into a hollow looks over flat places
 
 std::vector<std::pair<int, int>> hull_edges(const ConvexHull& hull) {
   std::vector<std::pair<int, int>> edges;
@@ -52,22 +54,52 @@ bool runs_inside(const SurfaceQuery& surface, const Point& a, const Point& b) {
 }
 
 // Fills in profile and concavity of a valley whose path is known; returns the path's length.
-double measure(Valley& valley, const PartGraph& part,
-               const Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>& planes, double tolerance) {
+double flatten(Valley& valley, const PartGraph& part, double tolerance) {
   std::vector<Point> points(valley.path.size());
   for (std::size_t k = 0; k < points.size(); ++k) points[k] = part.positions.row(valley.path[k]);
   double length = 0;
   for (std::size_t k = 1; k < points.size(); ++k) length += (points[k] - points[k - 1]).norm();
   valley.profile = flatten_valley(points);
   const std::vector<double> concavity = valley_concavity(valley.profile, tolerance);
-  valley.concavity = *std::max_element(concavity.begin(), concavity.end());
+  const auto deepest = std::max_element(concavity.begin(), concavity.end());
+  valley.concavity = *deepest;
+  valley.deepest = valley.path[static_cast<std::size_t>(deepest - concavity.begin())];
+  return length;
+}
+
+double measure(Valley& valley, const PartGraph& part,
+               const Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>& planes, double tolerance) {
+  const double length = flatten(valley, part, tolerance);
   valley.on_hull = valley.concavity > tolerance && runs_on_hull(part, valley, planes, kOnHullDepth * tolerance);
   return length;
 }
 
+// Where the hollow beneath a rim is deeper than the tolerance, the rim becomes the valley through its bottom. Returns the
+// hollow's depth.
+double lead_through_hollow(Valley& rim, const PartGraph& part, const Hollows& hollows, PathSearch& search,
+                           double tolerance) {
+  const int a = rim.path.front(), b = rim.path.back();
+  const double own = hollows.depth(rim.deepest, a, b, Hollows::Sides::both);
+  if (own > tolerance) {
+    rim.on_hull = false;
+    rim.through_hollow = true;
+    return own;
+  }
+  const Hollows::Bottom bottom = hollows.descend(rim.deepest, a, b, Hollows::Sides::outer);
+  if (bottom.depth <= tolerance) return std::max(own, bottom.depth);
+  Valley valley;
+  valley.path = path_through(search, a, bottom.vertex, b);
+  flatten(valley, part, tolerance);
+  // Where the flattened path crosses itself it can measure less than the hollow's depth below the hull.
+  valley.concavity = std::max(valley.concavity, bottom.depth);
+  valley.through_hollow = true;
+  rim = std::move(valley);
+  return bottom.depth;
+}
+
 }  // namespace
 
-bool has_deep_valley(const PartGraph& part, const SurfaceQuery& surface, double tolerance) {
+bool has_deep_valley(const PartGraph& part, const SurfaceQuery& surface, double tolerance, const CupRepair& repair) {
   const ConvexHull hull = convex_hull(part.positions, 1e-3 * tolerance);
   const auto planes = hull_planes(hull.mesh);
   std::vector<std::pair<int, int>> edges = hull_edges(hull);
@@ -77,6 +109,7 @@ bool has_deep_valley(const PartGraph& part, const SurfaceQuery& surface, double 
   // Long bridges first: they are the likely ones.
   std::stable_sort(edges.begin(), edges.end(), [&](const auto& x, const auto& y) { return span(x) > span(y); });
   PathSearch search(part);
+  std::optional<Hollows> hollows;
   for (const auto& [a, b] : edges) {
     const double bridge = std::sqrt(span({a, b}));
     if (std::isfinite(search.bounded_length(a, b, std::hypot(bridge, 2 * tolerance)))) continue;
@@ -88,11 +121,14 @@ bool has_deep_valley(const PartGraph& part, const SurfaceQuery& surface, double 
     if (valley.path.empty()) continue;
     measure(valley, part, planes, tolerance);
     if (valley.concavity > tolerance && !valley.on_hull) return true;
+    if (!valley.on_hull || !repair.on) continue;
+    if (!hollows) hollows.emplace(part, hull, kHollowStep * tolerance);
+    if (lead_through_hollow(valley, part, *hollows, search, tolerance); !valley.on_hull) return true;
   }
   return false;
 }
 
-Bridges find_bridges(const PartGraph& part, const SurfaceQuery& surface, double tolerance) {
+Bridges find_bridges(const PartGraph& part, const SurfaceQuery& surface, double tolerance, const CupRepair& repair) {
   const ConvexHull hull = convex_hull(part.positions, 1e-3 * tolerance);
   const auto planes = hull_planes(hull.mesh);
   const std::vector<std::pair<int, int>> edges = hull_edges(hull);
@@ -148,6 +184,16 @@ Bridges find_bridges(const PartGraph& part, const SurfaceQuery& surface, double 
       lengths[i] = measure(valley, part, planes, tolerance);
     }
   });
+  const auto suspect = [&](const Valley& v) { return v.concavity > tolerance; };
+  if (repair.on && std::any_of(valleys.begin(), valleys.end(), suspect)) {
+    const Hollows hollows(part, hull, kHollowStep * tolerance);
+    std::vector<double> hollow(open.size(), 0.0);
+    tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t i) {
+      if (suspect(valleys[i]))
+        hollow[i] = lead_through_hollow(valleys[i], part, hollows, searches.local(), tolerance);
+    });
+    bridges.concavity = std::max(bridges.concavity, *std::max_element(hollow.begin(), hollow.end()));
+  }
   for (std::size_t i = 0; i < open.size(); ++i) {
     if (ignored[i]) continue;
     if (!valleys[i].on_hull) bridges.concavity = std::max(bridges.concavity, valleys[i].concavity);

@@ -9,7 +9,8 @@
 //
 // A valley that runs on the hull itself has nothing beneath the hull to show: it goes round a flat opening, as the rim
 // of a cup does round the mouth. Such rims do not count as concavity. They are cut where that helps (the outline of a
-// flat plate), see valley_decomposition.h.
+// flat plate), see valley_decomposition.h. With the repair for cups (cup_repair.h) a rim is led through the hollow beneath
+// its bridge; where that is deeper than the tolerance, so is the valley.
 #pragma once
 
 #include <span>
@@ -17,6 +18,7 @@
 
 #include "partwise/geometry/surface_query.h"
 #include "partwise/parts/solid/concavity_polygon.h"
+#include "partwise/parts/solid/cup_repair.h"
 #include "partwise/parts/solid/part_graph.h"
 
 namespace partwise {
@@ -25,6 +27,8 @@ struct Valley {
   std::vector<int> path;        // local vertices, from one end of the bridge to the other
   std::vector<Point2> profile;  // the flattened path
   double concavity = 0;
+  int deepest = -1;  // the local vertex of that concavity
+  bool through_hollow = false;  // found by the repair for cups
   bool on_hull = false;  // deep, but no vertex is inside the hull by more than a quarter of the tolerance
 };
 
@@ -34,17 +38,19 @@ struct Bridges {
     double length;  // of the valley
   };
   std::vector<Shallow> shallow;
-  std::vector<Valley> deep;
+  std::vector<Valley> deep;  // rims too that were led through a hollow
   std::vector<Valley> rims;  // deep and on the hull: the rim of a cup, the outline of a plate
   double concavity =
       0;  // largest of all but the rims; for shallow valleys that were only bounded, their bound counts if it is larger
 };
 
 // All bridges of the part at a tolerance in model units. `surface` is the whole solid's.
-Bridges find_bridges(const PartGraph& part, const SurfaceQuery& surface, double tolerance);
+Bridges find_bridges(const PartGraph& part, const SurfaceQuery& surface, double tolerance,
+                     const CupRepair& repair = {});
 
 // Whether find_bridges() would find a deep valley other than rims; looks no further than the first.
-bool has_deep_valley(const PartGraph& part, const SurfaceQuery& surface, double tolerance);
+bool has_deep_valley(const PartGraph& part, const SurfaceQuery& surface, double tolerance,
+                     const CupRepair& repair = {});
 
 struct ConvexRidges {
   std::vector<std::vector<int>> members;  // hull vertices (local) of each ridge

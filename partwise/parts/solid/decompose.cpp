@@ -57,6 +57,8 @@ void check(const Mesh& mesh, const DecompositionSettings& settings, double radiu
   if (relative < kSmallestTolerance)
     throw InputError("tolerance", fmt::format("{:g} of the bounding-sphere radius is too fine", relative),
                      fmt::format("give at least {:g}", kSmallestTolerance));
+  if (settings.cup_repair && settings.measure != ConcavityMeasure::valley)
+    throw InputError("cup_repair", "is of the measure valley", "leave it out, hull cuts cups anyway");
   if (settings.max_hulls < 0) throw InputError("max_hulls", "is negative", "give 0 for no limit");
   if (settings.max_hull_vertices < 0 || (settings.max_hull_vertices > 0 && settings.max_hull_vertices < 4))
     throw InputError("max_hull_vertices", "is below 4", "give 0 for no limit, or 4 and more");
@@ -88,15 +90,17 @@ struct Scene {
 
 std::vector<HullPart> valley_parts(const Scene& scene, double tolerance, double thickness,
                                    const DecompositionSettings& settings, const Progress& progress) {
+  const CupRepair repair{.on = settings.cup_repair};
   std::vector<HullPart> parts;
   for (auto& group : connected_groups(scene.mesh, scene.all_faces())) {
-    for (ValleyPart& part : valley_decomposition(scene.mesh, scene.surface, std::move(group), tolerance, progress))
+    for (ValleyPart& part :
+         valley_decomposition(scene.mesh, scene.surface, std::move(group), tolerance, repair, progress))
       parts.push_back(hull_part(scene.mesh, std::move(part.faces), thickness));
   }
   const AcceptMerge accept = [&](const HullPart& a, const HullPart& b, const Mesh&) {
     std::vector<int> faces(a.faces.size() + b.faces.size());
     std::merge(a.faces.begin(), a.faces.end(), b.faces.begin(), b.faces.end(), faces.begin());
-    return !has_deep_valley(part_graph(scene.mesh, faces), scene.surface, tolerance);
+    return !has_deep_valley(part_graph(scene.mesh, faces), scene.surface, tolerance, repair);
   };
   PartMerging merging(scene.mesh, scene.space, std::move(parts), accept, {.minimum_thickness = thickness});
   merging.merge(progress);
@@ -166,8 +170,9 @@ Result run(const Mesh& input, Scene& scene, double tolerance, const Decompositio
     for (std::size_t p = 0; p < result.parts.size(); ++p) {
       progress("measuring", static_cast<double>(p) / static_cast<double>(result.parts.size()));
       if (settings.measure == ConcavityMeasure::valley) {
-        concavity = std::max(
-            concavity, find_bridges(part_graph(scene.mesh, result.parts[p].faces), scene.surface, tolerance).concavity);
+        concavity = std::max(concavity, find_bridges(part_graph(scene.mesh, result.parts[p].faces), scene.surface,
+                                                     tolerance, {.on = settings.cup_repair})
+                                            .concavity);
       } else {
         // Roughly: where a hull lies on the surface, every cube along it would be looked at down to the smallest.
         const ConvexBody body(result.hulls[p].scaled);

@@ -29,6 +29,7 @@ struct DecompositionSettings {
   double tolerance = 0.1;  // share of the bounding-sphere radius R of the input; model units with `absolute`
   bool absolute = false;
   ConcavityMeasure measure = ConcavityMeasure::hull;
+  bool cup_repair = false;    // section 2.4.8: `valley` finds the hollows of cups too; `hull` does without
   int max_hulls = 0;          // 0: no limit. With a limit the tolerance may be exceeded; `concavity` says by how much
   int max_hull_vertices = 0;  // 0: no limit, else at least 4; hulls are simplified from outside
 };

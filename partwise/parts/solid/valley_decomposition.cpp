@@ -1,6 +1,7 @@
 #include "partwise/parts/solid/valley_decomposition.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <numeric>
 
@@ -13,6 +14,8 @@ namespace {
 
 // Rims are cut when the largest piece's concavity is at most this share of the whole's.
 constexpr double kConcavityLeft = 0.8;
+// Where the largest piece of a hollow part keeps more than this share of the faces, the ridges only crumble off it.
+constexpr double kCrumbs = 0.95;
 
 // Numbers the pieces of each label that hang together by edges; a piece without a vertex of its ridge joins the piece
 // with which it shares the longest border. Returns the piece of each local face.
@@ -86,34 +89,67 @@ std::vector<std::vector<int>> separate(const Mesh& mesh, const PartGraph& part, 
   return groups;
 }
 
-double deepest(const std::vector<Valley>& valleys) {
-  double concavity = 0;
-  for (const Valley& v : valleys) concavity = std::max(concavity, v.concavity);
-  return concavity;
+// Two pieces or more: the faces nearer to one end of the valley, on the part, and those nearer to the other.
+std::vector<std::vector<int>> halve(const Mesh& mesh, const PartGraph& part, const Valley& valley) {
+  const int a = valley.path.front(), b = valley.path.back();
+  const double longest = std::accumulate(part.length.begin(), part.length.end(), 1.0);  // no path is longer
+  PathSearch search(part);
+  const auto distances = [&](int v) { return search.within_reach(std::array{std::pair{v, longest}}); };
+  const std::vector<double> to_a = distances(a), to_b = distances(b);
+  std::array<std::vector<int>, 2> sides;
+  for (std::size_t f = 0; f < part.corners.size(); ++f) {
+    double farther_from_a = 0;
+    for (int v : part.corners[f]) farther_from_a += to_a[v] - to_b[v];
+    // No face has both: the bridge is no edge of the part, or the valley would be it.
+    const auto& c = part.corners[f];
+    const bool at_a = std::count(c.begin(), c.end(), a) > 0, at_b = std::count(c.begin(), c.end(), b) > 0;
+    sides[at_b || (!at_a && farther_from_a > 0)].push_back(part.faces[f]);
+  }
+  std::vector<std::vector<int>> groups;
+  for (const auto& side : sides)
+    for (auto& group : connected_groups(mesh, side)) groups.push_back(std::move(group));
+  return groups;
+}
+
+const Valley& deepest_of(const std::vector<Valley>& valleys) {
+  return *std::max_element(valleys.begin(), valleys.end(),
+                           [](const Valley& x, const Valley& y) { return x.concavity < y.concavity; });
+}
+
+const std::vector<int>& largest_of(const std::vector<std::vector<int>>& groups) {
+  return *std::max_element(groups.begin(), groups.end(),
+                           [](const auto& x, const auto& y) { return x.size() < y.size(); });
 }
 
 }  // namespace
 
 std::vector<std::vector<int>> separate_once(const Mesh& mesh, const SurfaceQuery& surface,
-                                            const std::vector<int>& faces, double tolerance, double* concavity) {
+                                            const std::vector<int>& faces, double tolerance, const CupRepair& repair,
+                                            double* concavity) {
   const PartGraph part = part_graph(mesh, faces);
-  Bridges bridges = find_bridges(part, surface, tolerance);
+  Bridges bridges = find_bridges(part, surface, tolerance, repair);
   if (concavity) *concavity = bridges.concavity;
-  if (!bridges.deep.empty()) return separate(mesh, part, bridges, tolerance);
+  if (!bridges.deep.empty()) {
+    std::vector<std::vector<int>> groups = separate(mesh, part, bridges, tolerance);
+    if (repair.on && largest_of(groups).size() > kCrumbs * static_cast<double>(faces.size()) &&
+        (groups.size() == 1 || deepest_of(bridges.deep).through_hollow))
+      groups = halve(mesh, part, deepest_of(bridges.deep));
+    return groups;
+  }
   if (bridges.rims.empty()) return {faces};
   // Rims alone: separate there if that makes them shallower.
-  const double before = deepest(bridges.rims);
+  const double before = deepest_of(bridges.rims).concavity;
   bridges.deep = std::move(bridges.rims);
   std::vector<std::vector<int>> groups = separate(mesh, part, bridges, tolerance);
-  const auto largest =
-      std::max_element(groups.begin(), groups.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
-  const Bridges after = find_bridges(part_graph(mesh, *largest), surface, tolerance);
-  if (std::max(after.concavity, deepest(after.rims)) > kConcavityLeft * before) return {faces};
+  const Bridges after = find_bridges(part_graph(mesh, largest_of(groups)), surface, tolerance, repair);
+  double left = after.concavity;
+  if (!after.rims.empty()) left = std::max(left, deepest_of(after.rims).concavity);
+  if (left > kConcavityLeft * before) return {faces};
   return groups;
 }
 
 std::vector<ValleyPart> valley_decomposition(const Mesh& mesh, const SurfaceQuery& surface, std::vector<int> faces,
-                                             double tolerance, const Progress& progress) {
+                                             double tolerance, const CupRepair& repair, const Progress& progress) {
   std::vector<ValleyPart> done;
   std::vector<std::vector<int>> open{std::move(faces)};
   const double total = static_cast<double>(open.front().size());
@@ -123,7 +159,7 @@ std::vector<ValleyPart> valley_decomposition(const Mesh& mesh, const SurfaceQuer
     std::vector<int> current = std::move(open.back());
     open.pop_back();
     double concavity = 0;
-    std::vector<std::vector<int>> split = separate_once(mesh, surface, current, tolerance, &concavity);
+    std::vector<std::vector<int>> split = separate_once(mesh, surface, current, tolerance, repair, &concavity);
     if (split.size() > 1) {
       for (auto& group : split) open.push_back(std::move(group));
     } else {

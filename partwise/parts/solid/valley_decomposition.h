@@ -6,6 +6,7 @@
 
 #include "partwise/base/progress.h"
 #include "partwise/geometry/surface_query.h"
+#include "partwise/parts/solid/cup_repair.h"
 #include "partwise/parts/solid/part_graph.h"
 
 namespace partwise {
@@ -19,7 +20,7 @@ std::vector<std::vector<int>> connected_groups(const Mesh& mesh, const std::vect
 // `concavity`, if given, becomes that of the whole.
 std::vector<std::vector<int>> separate_once(const Mesh& mesh, const SurfaceQuery& surface,
                                             const std::vector<int>& faces, double tolerance,
-                                            double* concavity = nullptr);
+                                            const CupRepair& repair = {}, double* concavity = nullptr);
 
 struct ValleyPart {
   std::vector<int> faces;  // global, ascending
@@ -28,6 +29,6 @@ struct ValleyPart {
 
 // Decomposes the faces listed (one connected group).
 std::vector<ValleyPart> valley_decomposition(const Mesh& mesh, const SurfaceQuery& surface, std::vector<int> faces,
-                                             double tolerance, const Progress& progress);
+                                             double tolerance, const CupRepair& repair, const Progress& progress);
 
 }  // namespace partwise
