@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "partwise/geometry/convex_hull.h"
 
@@ -53,7 +54,7 @@ bool runs_inside(const SurfaceQuery& surface, const Point& a, const Point& b) {
   return true;
 }
 
-// Fills in profile and concavity of a valley whose path is known; returns the path's length.
+// Fills in profile, concavity and deepest vertex of a valley whose path is known; returns the path's length.
 double flatten(Valley& valley, const PartGraph& part, double tolerance) {
   std::vector<Point> points(valley.path.size());
   for (std::size_t k = 0; k < points.size(); ++k) points[k] = part.positions.row(valley.path[k]);
@@ -67,6 +68,7 @@ double flatten(Valley& valley, const PartGraph& part, double tolerance) {
   return length;
 }
 
+// The same, and whether it is a rim.
 double measure(Valley& valley, const PartGraph& part,
                const Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>& planes, double tolerance) {
   const double length = flatten(valley, part, tolerance);
@@ -74,26 +76,25 @@ double measure(Valley& valley, const PartGraph& part,
   return length;
 }
 
-// Where the hollow beneath a rim is deeper than the tolerance, the rim becomes the valley through its bottom. Returns the
-// hollow's depth.
-double lead_through_hollow(Valley& rim, const PartGraph& part, const Hollows& hollows, PathSearch& search,
+// The repair for cups: a deep valley whose deepest vertex is not itself below the bridge by more than the tolerance,
+// but from where a walk leads to one that is, becomes the valley through that one. Returns the depth of what was found;
+// a rim with more than the tolerance beneath it is no rim any more.
+double lead_through_hollow(Valley& valley, const PartGraph& part, const Hollows& hollows, PathSearch& search,
                            double tolerance) {
-  const int a = rim.path.front(), b = rim.path.back();
-  const double own = hollows.depth(rim.deepest, a, b, Hollows::Sides::both);
-  if (own > tolerance) {
-    rim.on_hull = false;
-    rim.through_hollow = true;
-    return own;
+  const int a = valley.path.front(), b = valley.path.back();
+  const double depth = hollows.depth(valley.deepest, a, b);
+  if (depth > tolerance) {
+    valley.through_hollow = std::exchange(valley.on_hull, false);
+    return depth;
   }
-  const Hollows::Bottom bottom = hollows.descend(rim.deepest, a, b, Hollows::Sides::outer);
-  if (bottom.depth <= tolerance) return std::max(own, bottom.depth);
-  Valley valley;
+  const Hollows::Bottom bottom = hollows.descend(valley.deepest, a, b);
+  if (bottom.depth <= tolerance) return std::max(depth, bottom.depth);
+  valley = {};
   valley.path = path_through(search, a, bottom.vertex, b);
   flatten(valley, part, tolerance);
-  // Where the flattened path crosses itself it can measure less than the hollow's depth below the hull.
+  // A flattened path that crosses itself is measured by other bridges than this one, and may seem shallower.
   valley.concavity = std::max(valley.concavity, bottom.depth);
   valley.through_hollow = true;
-  rim = std::move(valley);
   return bottom.depth;
 }
 
@@ -122,8 +123,9 @@ bool has_deep_valley(const PartGraph& part, const SurfaceQuery& surface, double 
     measure(valley, part, planes, tolerance);
     if (valley.concavity > tolerance && !valley.on_hull) return true;
     if (!valley.on_hull || !repair.on) continue;
-    if (!hollows) hollows.emplace(part, hull, kHollowStep * tolerance);
-    if (lead_through_hollow(valley, part, *hollows, search, tolerance); !valley.on_hull) return true;
+    if (!hollows) hollows.emplace(part, hull, kHollowStep * tolerance, repair.two_sided);
+    lead_through_hollow(valley, part, *hollows, search, tolerance);
+    if (!valley.on_hull) return true;
   }
   return false;
 }
@@ -184,13 +186,12 @@ Bridges find_bridges(const PartGraph& part, const SurfaceQuery& surface, double 
       lengths[i] = measure(valley, part, planes, tolerance);
     }
   });
-  const auto suspect = [&](const Valley& v) { return v.concavity > tolerance; };
-  if (repair.on && std::any_of(valleys.begin(), valleys.end(), suspect)) {
-    const Hollows hollows(part, hull, kHollowStep * tolerance);
+  const auto is_deep = [&](const Valley& v) { return v.concavity > tolerance; };
+  if (repair.on && std::any_of(valleys.begin(), valleys.end(), is_deep)) {
+    const Hollows hollows(part, hull, kHollowStep * tolerance, repair.two_sided);
     std::vector<double> hollow(open.size(), 0.0);
     tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t i) {
-      if (suspect(valleys[i]))
-        hollow[i] = lead_through_hollow(valleys[i], part, hollows, searches.local(), tolerance);
+      if (is_deep(valleys[i])) hollow[i] = lead_through_hollow(valleys[i], part, hollows, searches.local(), tolerance);
     });
     bridges.concavity = std::max(bridges.concavity, *std::max_element(hollow.begin(), hollow.end()));
   }

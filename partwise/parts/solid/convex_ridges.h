@@ -9,8 +9,8 @@
 //
 // A valley that runs on the hull itself has nothing beneath the hull to show: it goes round a flat opening, as the rim
 // of a cup does round the mouth. Such rims do not count as concavity. They are cut where that helps (the outline of a
-// flat plate), see valley_decomposition.h. With the repair for cups (cup_repair.h) a rim is led through the hollow beneath
-// its bridge; where that is deeper than the tolerance, so is the valley.
+// flat plate), see valley_decomposition.h. With the repair for cups (cup_repair.h) a rim with a hollow beneath its
+// bridge that is deeper than the tolerance is led through it and counts.
 #pragma once
 
 #include <span>
@@ -27,9 +27,9 @@ struct Valley {
   std::vector<int> path;        // local vertices, from one end of the bridge to the other
   std::vector<Point2> profile;  // the flattened path
   double concavity = 0;
-  int deepest = -1;  // the local vertex of that concavity
-  bool through_hollow = false;  // found by the repair for cups
-  bool on_hull = false;  // deep, but no vertex is inside the hull by more than a quarter of the tolerance
+  int deepest = -1;             // the local vertex of that concavity
+  bool through_hollow = false;  // what the repair for cups made of it, or of a rim
+  bool on_hull = false;         // deep, but no vertex is inside the hull by more than a quarter of the tolerance
 };
 
 struct Bridges {
@@ -38,7 +38,7 @@ struct Bridges {
     double length;  // of the valley
   };
   std::vector<Shallow> shallow;
-  std::vector<Valley> deep;  // rims too that were led through a hollow
+  std::vector<Valley> deep;  // with the repair for cups also former rims
   std::vector<Valley> rims;  // deep and on the hull: the rim of a cup, the outline of a plate
   double concavity =
       0;  // largest of all but the rims; for shallow valleys that were only bounded, their bound counts if it is larger

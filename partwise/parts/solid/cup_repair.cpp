@@ -6,12 +6,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 namespace partwise {
 namespace {
 
-constexpr double kLeastGain = 1e-3;    // of the step's length: what a step of the walk must be deeper
-constexpr double kLeastFacing = 1e-3;  // cosine: rounding must not make a bridge in a flat face's plane lie above it
+constexpr double kLeastGain = 1e-3;    // of the step: how much deeper each step of a walk must lead
+constexpr double kLeastFacing = 1e-3;  // cosine: a bridge in the plane of a flat face is not above it
 
 // Sums of the face normals about each vertex, weighted by area, of unit length or 0.
 Vertices vertex_normals(const PartGraph& part) {
@@ -25,10 +27,17 @@ Vertices vertex_normals(const PartGraph& part) {
   return normals;
 }
 
+// From p up to the point of the segment (a, b) that it lies beneath.
+std::optional<Point> up_to(const Point& p, const Point& a, const Point& b) {
+  const double t = (p - a).dot(b - a) / (b - a).squaredNorm();
+  if (!(t > 0 && t < 1)) return {};
+  return a + t * (b - a) - p;
+}
+
 }  // namespace
 
-Hollows::Hollows(const PartGraph& part, const ConvexHull& hull, double step)
-    : part_(part), step_(step), normals_(vertex_normals(part)) {
+Hollows::Hollows(const PartGraph& part, const ConvexHull& hull, double step, bool two_sided)
+    : part_(part), step_(step), two_sided_(two_sided), normals_(vertex_normals(part)) {
   for (const auto& f : hull.mesh.faces.rowwise()) {
     const auto planes = hull_planes({Vertices(hull.mesh.vertices(f, Eigen::all)), Faces{{0, 1, 2}}});
     if (planes.rows() == 0) continue;
@@ -41,33 +50,34 @@ Hollows::Hollows(const PartGraph& part, const ConvexHull& hull, double step)
                    [](const Facet& x, const Facet& y) { return std::pair(x.a, x.b) < std::pair(y.a, y.b); });
 }
 
-Hollows::Roof Hollows::roof(int a, int b) const {
-  const auto [low, high] = std::minmax(a, b);
-  Roof roof{.planes = {}, .a = part_.positions.row(a), .b = part_.positions.row(b)};
-  auto facet = std::lower_bound(facets_.begin(), facets_.end(), std::pair(low, high),
-                                [](const Facet& f, const auto& ends) { return std::pair(f.a, f.b) < ends; });
-  for (; facet != facets_.end() && facet->a == low && facet->b == high; ++facet) roof.planes.push_back(facet->plane);
-  return roof;
+Hollows::Bridge Hollows::bridge(int a, int b) const {
+  Bridge bridge{.a = part_.positions.row(a), .b = part_.positions.row(b), .facets = {}};
+  const std::pair<int, int> ends = std::minmax(a, b);
+  auto facet = std::lower_bound(facets_.begin(), facets_.end(), ends,
+                                [](const Facet& f, const auto& e) { return std::pair(f.a, f.b) < e; });
+  for (; facet != facets_.end() && std::pair(facet->a, facet->b) == ends; ++facet)
+    bridge.facets.push_back(facet->plane);
+  return bridge;
 }
 
-double Hollows::depth(int v, const Roof& roof, Sides sides) const {
-  if (roof.planes.empty()) return 0;
-  const Point p = part_.positions.row(v), along = roof.b - roof.a;
-  const double t = (p - roof.a).dot(along) / along.squaredNorm();
-  if (!(t > 0 && t < 1)) return 0;
-  const Point up = roof.a + t * along - p;
-  const double facing = up.dot(normals_.row(v));
-  if (sides == Sides::outer && facing <= kLeastFacing * up.norm()) return 0;
+double Hollows::depth(int v, const Bridge& bridge, bool facing) const {
+  const Point p = part_.positions.row(v);
+  const std::optional<Point> up = up_to(p, bridge.a, bridge.b);
+  if (!up || bridge.facets.empty()) return 0;
+  if (facing) {
+    const double cosine = up->dot(normals_.row(v));
+    if ((two_sided_ ? std::abs(cosine) : cosine) <= kLeastFacing * up->norm()) return 0;
+  }
   double depth = std::numeric_limits<double>::infinity();
-  for (const Plane& plane : roof.planes) depth = std::min(depth, plane[3] - p.dot(plane.head<3>()));
+  for (const Plane& plane : bridge.facets) depth = std::min(depth, plane[3] - p.dot(plane.head<3>()));
   return std::max(0.0, depth);
 }
 
-double Hollows::depth(int v, int a, int b, Sides sides) const { return depth(v, roof(a, b), sides); }
+double Hollows::depth(int v, int a, int b) const { return depth(v, bridge(a, b), false); }
 
-Hollows::Bottom Hollows::descend(int v, int a, int b, Sides sides) const {
-  const Roof above = roof(a, b);
-  Bottom bottom{v, depth(v, above, sides)};
+Hollows::Bottom Hollows::descend(int v, int a, int b) const {
+  const Bridge above = bridge(a, b);
+  Bottom bottom{v, depth(v, above, true)};
   std::vector<char> seen(static_cast<std::size_t>(part_.size()), 0);
   std::vector<int> ball;
   for (;;) {
@@ -81,7 +91,7 @@ Hollows::Bottom Hollows::descend(int v, int a, int b, Sides sides) const {
         if (seen[w]) continue;
         const bool near = (part_.positions.row(w) - part_.positions.row(centre)).norm() <= step_;
         if (!near && i > 0) continue;
-        const double deep = depth(w, above, sides);
+        const double deep = depth(w, above, true);
         if (deep > best.depth) best = {w, deep};
         if (!near) continue;
         seen[w] = 1;
@@ -97,7 +107,8 @@ Hollows::Bottom Hollows::descend(int v, int a, int b, Sides sides) const {
 std::vector<int> path_through(PathSearch& search, int a, int via, int b) {
   const std::array<int, 2> ends{a, b};
   search.from(via, ends);
-  std::vector<int> path = search.path_to(a), rest = search.path_to(b);
+  std::vector<int> path = search.path_to(a);
+  const std::vector<int> rest = search.path_to(b);
   if (path.empty() || rest.empty()) return {};
   std::reverse(path.begin(), path.end());
   path.insert(path.end(), rest.begin() + 1, rest.end());

@@ -88,9 +88,13 @@ struct Scene {
   }
 };
 
+CupRepair cup_repair(const Scene& scene, const DecompositionSettings& settings) {
+  return {.on = settings.cup_repair, .two_sided = !scene.closed};
+}
+
 std::vector<HullPart> valley_parts(const Scene& scene, double tolerance, double thickness,
                                    const DecompositionSettings& settings, const Progress& progress) {
-  const CupRepair repair{.on = settings.cup_repair};
+  const CupRepair repair = cup_repair(scene, settings);
   std::vector<HullPart> parts;
   for (auto& group : connected_groups(scene.mesh, scene.all_faces())) {
     for (ValleyPart& part :
@@ -171,7 +175,7 @@ Result run(const Mesh& input, Scene& scene, double tolerance, const Decompositio
       progress("measuring", static_cast<double>(p) / static_cast<double>(result.parts.size()));
       if (settings.measure == ConcavityMeasure::valley) {
         concavity = std::max(concavity, find_bridges(part_graph(scene.mesh, result.parts[p].faces), scene.surface,
-                                                     tolerance, {.on = settings.cup_repair})
+                                                     tolerance, cup_repair(scene, settings))
                                             .concavity);
       } else {
         // Roughly: where a hull lies on the surface, every cube along it would be looked at down to the smallest.

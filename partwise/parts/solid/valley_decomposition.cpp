@@ -14,8 +14,8 @@ namespace {
 
 // Rims are cut when the largest piece's concavity is at most this share of the whole's.
 constexpr double kConcavityLeft = 0.8;
-// Where the largest piece of a hollow part keeps more than this share of the faces, the ridges only crumble off it.
-constexpr double kCrumbs = 0.95;
+// Where the largest piece of a hollow part keeps more than this share of the faces, it is halved instead.
+constexpr double kFacesLeft = 0.5;
 
 // Numbers the pieces of each label that hang together by edges; a piece without a vertex of its ridge joins the piece
 // with which it shares the longest border. Returns the piece of each local face.
@@ -89,21 +89,20 @@ std::vector<std::vector<int>> separate(const Mesh& mesh, const PartGraph& part, 
   return groups;
 }
 
-// Two pieces or more: the faces nearer to one end of the valley, on the part, and those nearer to the other.
+// Two pieces or more: the faces nearer to one end of the valley and those nearer to the other. The plane between them
+// cuts both walls of a shell at the same place.
 std::vector<std::vector<int>> halve(const Mesh& mesh, const PartGraph& part, const Valley& valley) {
   const int a = valley.path.front(), b = valley.path.back();
-  const double longest = std::accumulate(part.length.begin(), part.length.end(), 1.0);  // no path is longer
-  PathSearch search(part);
-  const auto distances = [&](int v) { return search.within_reach(std::array{std::pair{v, longest}}); };
-  const std::vector<double> to_a = distances(a), to_b = distances(b);
+  const Point from = part.positions.row(a), to = part.positions.row(b);
   std::array<std::vector<int>, 2> sides;
   for (std::size_t f = 0; f < part.corners.size(); ++f) {
-    double farther_from_a = 0;
-    for (int v : part.corners[f]) farther_from_a += to_a[v] - to_b[v];
-    // No face has both: the bridge is no edge of the part, or the valley would be it.
-    const auto& c = part.corners[f];
-    const bool at_a = std::count(c.begin(), c.end(), a) > 0, at_b = std::count(c.begin(), c.end(), b) > 0;
-    sides[at_b || (!at_a && farther_from_a > 0)].push_back(part.faces[f]);
+    const auto& corners = part.corners[f];
+    double beyond = 0;
+    for (int v : corners) beyond += (part.positions.row(v) - (from + to) / 2).dot(to - from);
+    // No face has both ends: then the valley would run along its edge and not be deep.
+    const bool at_a = std::count(corners.begin(), corners.end(), a) > 0;
+    const bool at_b = std::count(corners.begin(), corners.end(), b) > 0;
+    sides[at_b || (!at_a && beyond > 0)].push_back(part.faces[f]);
   }
   std::vector<std::vector<int>> groups;
   for (const auto& side : sides)
@@ -131,9 +130,11 @@ std::vector<std::vector<int>> separate_once(const Mesh& mesh, const SurfaceQuery
   if (concavity) *concavity = bridges.concavity;
   if (!bridges.deep.empty()) {
     std::vector<std::vector<int>> groups = separate(mesh, part, bridges, tolerance);
-    if (repair.on && largest_of(groups).size() > kCrumbs * static_cast<double>(faces.size()) &&
-        (groups.size() == 1 || deepest_of(bridges.deep).through_hollow))
-      groups = halve(mesh, part, deepest_of(bridges.deep));
+    // Ridges along the mouth of a hollow keep little more than the rim, and what is left is as hollow as before.
+    const Valley& valley = deepest_of(bridges.deep);
+    const bool crumbled =
+        static_cast<double>(largest_of(groups).size()) > kFacesLeft * static_cast<double>(faces.size());
+    if (repair.on && (groups.size() == 1 || (valley.through_hollow && crumbled))) return halve(mesh, part, valley);
     return groups;
   }
   if (bridges.rims.empty()) return {faces};

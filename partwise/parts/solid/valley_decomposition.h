@@ -17,6 +17,8 @@ std::vector<std::vector<int>> connected_groups(const Mesh& mesh, const std::vect
 // One round: the connected pieces between the ridges of the faces listed (one connected group); the faces themselves
 // where no valley is deep or no cut was found. Where only rims are deep (valleys that run on the hull), the pieces are
 // taken only if the largest is less concave than the whole was; else cutting would nibble at the rim of a cup for ever.
+// With the repair for cups a part with deep valleys is always cut: halved between the ends of its deepest valley where
+// ridges find no cut, or leave more than half of a hollow part in one piece.
 // `concavity`, if given, becomes that of the whole.
 std::vector<std::vector<int>> separate_once(const Mesh& mesh, const SurfaceQuery& surface,
                                             const std::vector<int>& faces, double tolerance,
