@@ -76,25 +76,27 @@ double measure(Valley& valley, const PartGraph& part,
   return length;
 }
 
-// The repair for cups: a deep valley whose deepest vertex is not itself below the bridge by more than the tolerance,
-// but from where a walk leads to one that is, becomes the valley through that one. Returns the depth of what was found;
-// a rim with more than the tolerance beneath it is no rim any more.
-double lead_through_hollow(Valley& valley, const PartGraph& part, const Hollows& hollows, PathSearch& search,
-                           double tolerance) {
-  const int a = valley.path.front(), b = valley.path.back();
-  const double depth = hollows.depth(valley.deepest, a, b);
+// The repair for cups: where a rim's hollow is deeper than the tolerance, the rim becomes a valley, through the bottom
+// unless its deepest vertex is in the hollow already. Returns the hollow's depth.
+double lead_through_hollow(Valley& rim, const PartGraph& part, const Hollows& hollows, PathSearch& search,
+                           const SurfaceQuery& surface, double tolerance) {
+  const int a = rim.path.front(), b = rim.path.back();
+  double depth = hollows.depth(rim.deepest, a, b);
+  if (depth > tolerance) depth = std::min(depth, hollows.air(rim.deepest, a, b, surface));
   if (depth > tolerance) {
-    valley.through_hollow = std::exchange(valley.on_hull, false);
+    rim.on_hull = false;
+    rim.through_hollow = true;
     return depth;
   }
-  const Hollows::Bottom bottom = hollows.descend(valley.deepest, a, b);
+  const Hollows::Bottom bottom = hollows.descend(rim.deepest, a, b);
   if (bottom.depth <= tolerance) return std::max(depth, bottom.depth);
-  valley = {};
+  Valley valley;
   valley.path = path_through(search, a, bottom.vertex, b);
   flatten(valley, part, tolerance);
   // A flattened path that crosses itself is measured by other bridges than this one, and may seem shallower.
   valley.concavity = std::max(valley.concavity, bottom.depth);
   valley.through_hollow = true;
+  rim = std::move(valley);
   return bottom.depth;
 }
 
@@ -124,7 +126,7 @@ bool has_deep_valley(const PartGraph& part, const SurfaceQuery& surface, double 
     if (valley.concavity > tolerance && !valley.on_hull) return true;
     if (!valley.on_hull || !repair.on) continue;
     if (!hollows) hollows.emplace(part, hull, kHollowStep * tolerance, repair.two_sided);
-    lead_through_hollow(valley, part, *hollows, search, tolerance);
+    lead_through_hollow(valley, part, *hollows, search, surface, tolerance);
     if (!valley.on_hull) return true;
   }
   return false;
@@ -186,12 +188,13 @@ Bridges find_bridges(const PartGraph& part, const SurfaceQuery& surface, double 
       lengths[i] = measure(valley, part, planes, tolerance);
     }
   });
-  const auto is_deep = [&](const Valley& v) { return v.concavity > tolerance; };
-  if (repair.on && std::any_of(valleys.begin(), valleys.end(), is_deep)) {
+  const auto is_rim = [](const Valley& v) { return v.on_hull; };
+  if (repair.on && std::any_of(valleys.begin(), valleys.end(), is_rim)) {
     const Hollows hollows(part, hull, kHollowStep * tolerance, repair.two_sided);
     std::vector<double> hollow(open.size(), 0.0);
     tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t i) {
-      if (is_deep(valleys[i])) hollow[i] = lead_through_hollow(valleys[i], part, hollows, searches.local(), tolerance);
+      if (is_rim(valleys[i]))
+        hollow[i] = lead_through_hollow(valleys[i], part, hollows, searches.local(), surface, tolerance);
     });
     bridges.concavity = std::max(bridges.concavity, *std::max_element(hollow.begin(), hollow.end()));
   }

@@ -28,7 +28,7 @@ struct Valley {
   std::vector<Point2> profile;  // the flattened path
   double concavity = 0;
   int deepest = -1;             // the local vertex of that concavity
-  bool through_hollow = false;  // what the repair for cups made of it, or of a rim
+  bool through_hollow = false;  // a rim once, until the repair for cups
   bool on_hull = false;         // deep, but no vertex is inside the hull by more than a quarter of the tolerance
 };
 

@@ -75,6 +75,15 @@ double Hollows::depth(int v, const Bridge& bridge, bool facing) const {
 
 double Hollows::depth(int v, int a, int b) const { return depth(v, bridge(a, b), false); }
 
+double Hollows::air(int v, int a, int b, const SurfaceQuery& surface) const {
+  const Point p = part_.positions.row(v);
+  const std::optional<Point> up = up_to(p, part_.positions.row(a), part_.positions.row(b));
+  if (!up || up->norm() == 0) return 0;
+  if (!two_sided_ && surface.contains(p + *up)) return 0;
+  const SurfaceQuery::Hit hit = surface.first_hit(p + *up, -up->normalized(), 0);
+  return hit.face < 0 ? up->norm() : std::min(hit.distance, up->norm());
+}
+
 Hollows::Bottom Hollows::descend(int v, int a, int b) const {
   const Bridge above = bridge(a, b);
   Bottom bottom{v, depth(v, above, true)};

@@ -8,8 +8,8 @@
 // between its ends), and a walk goes only where the bridge is on the outer side of the surface, so that it leads down
 // the inside of a cup and never down the outside.
 //
-// A part may be one skin of a wall, or an open mesh may bend round a hollow: its valleys run on the hull too, but their
-// deepest vertices are themselves deep below the bridge. They need no walk.
+// A part may be one skin of a wall: its valleys run on the hull too, but their deepest vertices are themselves deep
+// below the bridge. They need no walk, only the question how much of that depth is air, and how much is wall.
 //
 // Lengths in the units of the part's positions.
 #pragma once
@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "partwise/geometry/convex_hull.h"
+#include "partwise/geometry/surface_query.h"
 #include "partwise/parts/solid/part_graph.h"
 
 namespace partwise {
@@ -34,6 +35,10 @@ class Hollows {
 
   // Of local vertex v below the bridge (a, b), an edge of the hull; 0 where it is not beneath.
   double depth(int v, int a, int b) const;
+
+  // How far from the bridge towards v, which is beneath it, there is air: the distance to the first surface; 0 if the
+  // bridge is inside the solid there. `surface` is the whole solid's.
+  double air(int v, int a, int b, const SurfaceQuery& surface) const;
 
   struct Bottom {
     int vertex;
