@@ -29,6 +29,7 @@ def parse(words):
     add("--measure", choices=["hull", "valley"], default="hull")
     add("--tolerance", type=float, default=0.1, help="share of the bounding-sphere radius")
     add("--max-hull-vertices", type=int, default=0, help="0: no limit")
+    add("--cup-repair", action="store_true", help="of valley")
     add("--threads", type=int, default=1, help="of the program")
     add("--jobs", type=int, default=1, help="meshes at a time")
     add("--time-limit", type=float, default=120, help="wall seconds a run")
@@ -108,7 +109,7 @@ def main(words):
     paths = chosen_meshes(options, category)
     judged = options.check or options.remove or options.hacd
     settings = Settings(options.program, options.checker if judged else None, options.tolerance, options.measure,
-                        options.max_hull_vertices, options.threads, options.time_limit, options.samples)
+                        options.max_hull_vertices, options.cup_repair, options.threads, options.time_limit, options.samples)
     people = People(options.seg_dir) if options.seg_dir else None
     result = {"meshes": len(paths), "settings": settings.described()}
     with ThreadPoolExecutor(options.jobs) as pool:

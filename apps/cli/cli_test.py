@@ -64,6 +64,8 @@ class Usage(CommandLine):
             (whole + ["second.off"], "second.off"),
             (whole + ["--measure", "volume"], "--measure"),
             (whole + ["--measure"], "--measure"),
+            (whole + ["--cup-repair"], "--cup-repair belongs to --measure valley; leave it out, hull cuts cups anyway"),
+            (whole + ["--measure", "hull", "--cup-repair"], "--cup-repair"),
             (whole + ["--max-hulls", "0"], "--max-hulls"),
             (whole + ["--max-hulls", "two"], "--max-hulls"),
             (whole + ["--max-hulls", "99999999999999999999"], "--max-hulls"),
@@ -113,7 +115,7 @@ class Usage(CommandLine):
         self.assert_done(result)
         self.assertIn("Example:\n  partwise decompose ", result.stdout)
         for option in (
-            "--tolerance --absolute --measure --max-hulls --max-hull-vertices --labels --hulls --glb --urdf "
+            "--tolerance --absolute --measure --cup-repair --max-hulls --max-hull-vertices --labels --hulls --glb --urdf "
             "--mjcf --threads --seed --quiet --json --help"
         ).split():
             self.assertIn(option, result.stdout)
@@ -161,9 +163,10 @@ class Results(CommandLine):
         result = self.decompose("--json", "-")
         self.assert_done(result)
         self.assertEqual(json.loads(result.stdout)["measure"], "hull")
-        result = self.decompose("--measure", "valley", "--json", "-")
-        self.assert_done(result)
-        self.assertEqual(json.loads(result.stdout)["measure"], "valley")
+        for repair in [], ["--cup-repair"]:
+            result = self.decompose("--measure", "valley", *repair, "--json", "-")
+            self.assert_done(result)
+            self.assertEqual(json.loads(result.stdout)["measure"], "valley")
         self.assert_files()
 
     def test_an_open_mesh_has_no_ratio(self):

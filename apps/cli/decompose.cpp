@@ -27,6 +27,11 @@ struct Options {
 
 const char* measure_name(ConcavityMeasure measure) { return measure == ConcavityMeasure::hull ? "hull" : "valley"; }
 
+void check_usage(const DecompositionSettings& settings) {
+  if (settings.cup_repair && settings.measure != ConcavityMeasure::valley)
+    throw UsageError("--cup-repair belongs to --measure valley; leave it out, hull cuts cups anyway");
+}
+
 void announce_outputs(const Options& options, Outputs& outputs) {
   outputs.add_input("MESH", options.mesh);
   if (!options.labels.empty()) outputs.add("--labels", options.labels);
@@ -105,6 +110,7 @@ Decomposition decompose_file(const Options& options, const Mesh& mesh, const Pro
 }
 
 void decompose_files(const Options& options, Run& run) {
+  check_usage(options.settings);
   announce_outputs(options, run.outputs);
   const Mesh mesh = run.stage("read", [&] { return read_mesh(options.mesh); });
   const Decomposition result = decompose_file(options, mesh, run.progress);
@@ -129,6 +135,8 @@ Action add(CLI::App& command) {
              Choices<ConcavityMeasure>{{"hull", ConcavityMeasure::hull}, {"valley", ConcavityMeasure::valley}},
              "hull: no hull leaves the solid by more than T [default]; valley: no valley between hull edges is deeper "
              "than T, as published");
+  command.add_flag("--cup-repair", settings.cup_repair,
+                   "With --measure valley: lead valleys through hollows, so that cups are cut (section 2.4.8)");
   add_count(command, "--max-hulls", settings.max_hulls, 1,
             "At most N parts; T may then be exceeded, and concavity says by how much");
   add_count(command, "--max-hull-vertices", settings.max_hull_vertices, 4, "At most N vertices a hull, 4 or more");

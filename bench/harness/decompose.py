@@ -17,6 +17,7 @@ class Settings:
     tolerance: float = 0.1
     measure: str = "hull"
     max_hull_vertices: int = 0
+    cup_repair: bool = False
     threads: int = 1
     time_limit: float = 120  # seconds
     samples: int = 20000
@@ -24,7 +25,7 @@ class Settings:
     def described(self):
         """What a result depends on, for the history."""
         return {"tolerance": self.tolerance, "measure": self.measure, "max_hull_vertices": self.max_hull_vertices,
-                "threads": self.threads}
+                "threads": self.threads} | ({"cup_repair": True} if self.cup_repair else {})
 
 
 @dataclass
@@ -72,6 +73,8 @@ def run_program(settings, mesh, files, threads=None, scene=False):
                "--json", files.report, "--quiet"]
     if scene:
         command += ["--glb", files.scene]
+    if settings.cup_repair:
+        command.append("--cup-repair")
     if settings.max_hull_vertices:
         command += ["--max-hull-vertices", settings.max_hull_vertices]
     return process.run(command, settings.time_limit)

@@ -5,69 +5,33 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
-#include <queue>
+#include <optional>
 #include <set>
-
-#include "partwise/base/error.h"
-#include "partwise/geometry/convex_hull.h"
 
 namespace partwise {
 namespace {
 
 constexpr double kOnHullDepth = 0.5;  // of the tolerance
+constexpr double kHollowStep = 0.5;   // of the tolerance: how far a walk into a hollow looks over flat places
 
-PartHull part_hull(const Mesh& hull, const std::vector<int>& local) {
-  PartHull result{{}, hull_planes(hull)};
-  for (const auto& f : hull.faces.rowwise()) {
-    for (int k = 0; k < 3; ++k) {
-      const auto [a, b] = std::minmax(local[f[k]], local[f[(k + 1) % 3]]);
-      if (a != b) result.edges.emplace_back(a, b);
-    }
-  }
-  std::sort(result.edges.begin(), result.edges.end());
-  result.edges.erase(std::unique(result.edges.begin(), result.edges.end()), result.edges.end());
-  return result;
+// The end of each edge that its path is sought from: one search serves all edges of an end, so the end with more. It
+// depends on the hull alone, for of equally short paths the source decides which is found.
+std::vector<int> sources(const PartHull& hull, int vertices) {
+  std::vector<int> edges_at(static_cast<std::size_t>(vertices), 0), source;
+  for (const auto& [a, b] : hull.edges) ++edges_at[a], ++edges_at[b];
+  for (const auto& [a, b] : hull.edges) source.push_back(edges_at[b] > edges_at[a] ? b : a);
+  return source;
 }
 
-// The edges by one of their ends each, with few such ends, for one search serves all edges of an end: the end with most
-// edges first (a greedy vertex cover).
-struct EdgesOfSource {
-  int source;
-  std::vector<std::size_t> edges;
-};
+int other_end(const std::pair<int, int>& edge, int end) { return edge.first == end ? edge.second : edge.first; }
 
-std::vector<EdgesOfSource> by_source(const std::vector<std::pair<int, int>>& edges, int vertices) {
-  std::vector<std::vector<std::size_t>> at(static_cast<std::size_t>(vertices));
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    at[edges[i].first].push_back(i);
-    at[edges[i].second].push_back(i);
-  }
-  std::priority_queue<std::pair<std::size_t, int>> queue;
-  std::vector<std::size_t> left(at.size());
-  for (std::size_t v = 0; v < at.size(); ++v)
-    if ((left[v] = at[v].size()) > 0) queue.push({left[v], -static_cast<int>(v)});
-  std::vector<char> covered(edges.size(), 0);
-  std::vector<EdgesOfSource> groups;
-  while (!queue.empty()) {
-    const auto [count, minus_v] = queue.top();
-    queue.pop();
-    const auto v = static_cast<std::size_t>(-minus_v);
-    if (left[v] == 0) continue;
-    if (count != left[v]) {
-      queue.push({left[v], minus_v});
-      continue;
-    }
-    groups.push_back({static_cast<int>(v), {}});
-    for (const std::size_t i : at[v]) {
-      if (covered[i]) continue;
-      covered[i] = 1;
-      groups.back().edges.push_back(i);
-      --left[edges[i].first];
-      --left[edges[i].second];
-    }
-  }
-  return groups;
+// The path of an edge after a search from one of its ends; in the direction of the edge.
+std::vector<int> path_of(const PathSearch& search, const std::pair<int, int>& edge, int source) {
+  std::vector<int> path = search.path_to(other_end(edge, source));
+  if (source != edge.first) std::reverse(path.begin(), path.end());
+  return path;
 }
 
 // Which vertices of a part are no deeper inside its hull than a depth; each is asked once.
@@ -112,78 +76,109 @@ bool runs_inside(const SurfaceQuery& surface, const Point& a, const Point& b) {
   return true;
 }
 
-// Fills in profile and concavity of a valley whose path is known; returns the path's length.
-double measure(Valley& valley, const PartGraph& part, NearHull& near_hull, double tolerance) {
+// Fills in profile, concavity and deepest vertex of a valley whose path is known; returns the path's length.
+double flatten(Valley& valley, const PartGraph& part, double tolerance) {
   std::vector<Point> points(valley.path.size());
   for (std::size_t k = 0; k < points.size(); ++k) points[k] = part.positions.row(valley.path[k]);
   double length = 0;
   for (std::size_t k = 1; k < points.size(); ++k) length += (points[k] - points[k - 1]).norm();
   valley.profile = flatten_valley(points);
   const std::vector<double> concavity = valley_concavity(valley.profile, tolerance);
-  valley.concavity = *std::max_element(concavity.begin(), concavity.end());
+  const auto deepest = std::max_element(concavity.begin(), concavity.end());
+  valley.concavity = *deepest;
+  valley.deepest = valley.path[static_cast<std::size_t>(deepest - concavity.begin())];
+  return length;
+}
+
+// The same, and whether it is a rim.
+double measure(Valley& valley, const PartGraph& part, NearHull& near_hull, double tolerance) {
+  const double length = flatten(valley, part, tolerance);
   valley.on_hull = valley.concavity > tolerance && near_hull.holds(valley);
   return length;
 }
 
+// The repair for cups: where a rim's hollow is deeper than the tolerance, the rim becomes a valley, through the bottom
+// unless its deepest vertex is in the hollow already. Returns the hollow's depth.
+double lead_through_hollow(Valley& rim, const PartGraph& part, const Hollows& hollows, PathSearch& search,
+                           const SurfaceQuery& surface, double tolerance) {
+  const int a = rim.path.front(), b = rim.path.back();
+  double depth = hollows.depth(rim.deepest, a, b);
+  if (depth > tolerance) depth = std::min(depth, hollows.air(rim.deepest, a, b, surface));
+  if (depth > tolerance) {
+    rim.on_hull = false;
+    rim.through_hollow = true;
+    return depth;
+  }
+  const Hollows::Bottom bottom = hollows.descend(rim.deepest, a, b);
+  if (bottom.depth <= tolerance) return std::max(depth, bottom.depth);
+  Valley valley;
+  valley.path = path_through(search, a, bottom.vertex, b);
+  flatten(valley, part, tolerance);
+  // A flattened path that crosses itself is measured by other bridges than this one, and may seem shallower.
+  valley.concavity = std::max(valley.concavity, bottom.depth);
+  valley.through_hollow = true;
+  rim = std::move(valley);
+  return bottom.depth;
+}
+
 }  // namespace
 
-PartHull part_hull(const PartGraph& part, double tolerance) {
-  const ConvexHull hull = convex_hull(part.positions, kBridgeThickness * tolerance);
-  return part_hull(hull.mesh, hull.source);
-}
-
-PartHull part_hull(const PartGraph& part, const Mesh& hull, std::span<const int> source) {
-  std::vector<int> local;
-  for (const int v : source) {
-    const auto found = std::lower_bound(part.vertices.begin(), part.vertices.end(), v);
-    PARTWISE_CHECK(*found, ==, v);
-    local.push_back(static_cast<int>(found - part.vertices.begin()));
-  }
-  return part_hull(hull, local);
-}
-
-bool has_deep_valley(const PartGraph& part, const PartHull& hull, const SurfaceQuery& surface, double tolerance) {
-  std::vector<std::pair<int, int>> edges = hull.edges;
-  const auto span = [&](const std::pair<int, int>& e) {
-    return (part.positions.row(e.first) - part.positions.row(e.second)).norm();
-  };
+bool has_deep_valley(const PartGraph& part, const PartHull& hull, const SurfaceQuery& surface, double tolerance,
+                     const CupRepair& repair) {
+  const auto& edges = hull.edges;
+  const std::vector<int> source = sources(hull, part.size());
+  std::vector<std::vector<std::size_t>> of_source(part.vertices.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) of_source[source[i]].push_back(i);
   // Long bridges first: they are the likely ones.
-  std::stable_sort(edges.begin(), edges.end(), [&](const auto& x, const auto& y) { return span(x) > span(y); });
-  std::vector<std::vector<std::size_t>> at(part.vertices.size());
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    at[edges[i].first].push_back(i);
-    at[edges[i].second].push_back(i);
-  }
+  std::vector<double> span(edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    span[i] = (part.positions.row(edges[i].first) - part.positions.row(edges[i].second)).norm();
+  std::vector<std::size_t> order(edges.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t x, std::size_t y) { return span[x] > span[y]; });
   std::vector<char> settled(edges.size(), 0);
   PathSearch search(part);
   NearHull near_hull(part, hull, kOnHullDepth * tolerance);
-  for (std::size_t i = 0; i < edges.size(); ++i) {
+  std::optional<Hollows> hollows;
+  std::vector<Valley> rims;  // kept until the search's paths have been read: the repair searches anew
+  for (const std::size_t i : order) {
     if (settled[i]) continue;
     const auto [a, b] = edges[i];
-    if (std::isfinite(search.bounded_length(a, b, std::hypot(span(edges[i]), 2 * tolerance)))) continue;
+    if (std::isfinite(search.bounded_length(a, b, std::hypot(span[i], 2 * tolerance)))) continue;
     if (runs_inside(surface, part.positions.row(a), part.positions.row(b))) continue;
-    // One search for all bridges of the end that has more of them.
-    const int source = at[a].size() >= at[b].size() ? a : b;
+    std::vector<std::size_t> together;
     std::vector<int> targets;
-    for (const std::size_t k : at[source])
-      if (!settled[k]) targets.push_back(edges[k].first == source ? edges[k].second : edges[k].first);
-    search.from(source, targets);
-    for (const std::size_t k : at[source]) {
+    for (const std::size_t k : of_source[source[i]]) {
       if (settled[k]) continue;
       settled[k] = 1;
+      together.push_back(k);
+      targets.push_back(other_end(edges[k], source[k]));
+    }
+    search.from(source[i], targets);
+    for (const std::size_t k : together) {
       Valley valley;
-      valley.path = search.path_to(edges[k].first == source ? edges[k].second : edges[k].first);
+      valley.path = path_of(search, edges[k], source[k]);
       if (valley.path.empty()) continue;
       measure(valley, part, near_hull, tolerance);
-      const Point p = part.positions.row(edges[k].first), q = part.positions.row(edges[k].second);
-      if (valley.concavity > tolerance && !valley.on_hull && !runs_inside(surface, p, q)) return true;
+      if (valley.concavity <= tolerance) continue;
+      if (runs_inside(surface, part.positions.row(edges[k].first), part.positions.row(edges[k].second))) continue;
+      if (!valley.on_hull) return true;
+      if (repair.on) rims.push_back(std::move(valley));
     }
+    if (!rims.empty() && !hollows) hollows.emplace(part, hull, kHollowStep * tolerance, repair.two_sided);
+    for (Valley& rim : rims) {
+      lead_through_hollow(rim, part, *hollows, search, surface, tolerance);
+      if (!rim.on_hull) return true;
+    }
+    rims.clear();
   }
   return false;
 }
 
-Bridges find_bridges(const PartGraph& part, const PartHull& hull, const SurfaceQuery& surface, double tolerance) {
+Bridges find_bridges(const PartGraph& part, const PartHull& hull, const SurfaceQuery& surface, double tolerance,
+                     const CupRepair& repair) {
   const auto& edges = hull.edges;
+  const std::vector<int> source = sources(hull, part.size());
   tbb::enumerable_thread_specific<PathSearch> searches([&] { return PathSearch(part); });
   tbb::enumerable_thread_specific<NearHull> near_hulls([&] { return NearHull(part, hull, kOnHullDepth * tolerance); });
 
@@ -195,11 +190,11 @@ Bridges find_bridges(const PartGraph& part, const PartHull& hull, const SurfaceQ
     shallow_length[i] = searches.local().bounded_length(a, b, std::hypot(bridge, 2 * tolerance));
   });
   Bridges bridges;
-  std::vector<std::pair<int, int>> open;
+  std::vector<std::size_t> open;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const auto [a, b] = edges[i];
     if (!std::isfinite(shallow_length[i])) {
-      open.push_back(edges[i]);
+      open.push_back(i);
       continue;
     }
     bridges.shallow.push_back({a, b, shallow_length[i]});
@@ -208,31 +203,40 @@ Bridges find_bridges(const PartGraph& part, const PartHull& hull, const SurfaceQ
     bridges.concavity = std::max(bridges.concavity, bound);
   }
 
-  std::vector<char> inside(open.size(), 0);
+  std::vector<char> inside(edges.size(), 0);
   tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t i) {
-    inside[i] = runs_inside(surface, part.positions.row(open[i].first), part.positions.row(open[i].second));
+    const auto [a, b] = edges[open[i]];
+    inside[open[i]] = runs_inside(surface, part.positions.row(a), part.positions.row(b));
   });
-  std::erase_if(open, [&](const auto& bridge) { return inside[&bridge - open.data()] != 0; });
+  std::erase_if(open, [&](std::size_t i) { return inside[i] != 0; });
 
   // The others by their paths.
-  const std::vector<EdgesOfSource> groups = by_source(open, part.size());
+  std::map<int, std::vector<std::size_t>> by_source;
+  for (std::size_t i = 0; i < open.size(); ++i) by_source[source[open[i]]].push_back(i);
+  const std::vector<std::pair<int, std::vector<std::size_t>>> groups(by_source.begin(), by_source.end());
   std::vector<Valley> valleys(open.size());
   std::vector<double> lengths(open.size());
   tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
-    const auto& [source, bridges_here] = groups[g];
-    const auto target = [&](std::size_t i) { return open[i].first == source ? open[i].second : open[i].first; };
+    const auto& [from, together] = groups[g];
     std::vector<int> targets;
-    for (const std::size_t i : bridges_here) targets.push_back(target(i));
+    for (const std::size_t i : together) targets.push_back(other_end(edges[open[i]], from));
     PathSearch& search = searches.local();
-    search.from(source, targets);
-    for (const std::size_t i : bridges_here) {
-      Valley& valley = valleys[i];
-      valley.path = search.path_to(target(i));
-      if (valley.path.empty()) continue;
-      if (source != open[i].first) std::reverse(valley.path.begin(), valley.path.end());
-      lengths[i] = measure(valley, part, near_hulls.local(), tolerance);
+    search.from(from, targets);
+    for (const std::size_t i : together) {
+      valleys[i].path = path_of(search, edges[open[i]], from);
+      if (!valleys[i].path.empty()) lengths[i] = measure(valleys[i], part, near_hulls.local(), tolerance);
     }
   });
+  const auto is_rim = [](const Valley& v) { return v.on_hull; };
+  if (repair.on && std::any_of(valleys.begin(), valleys.end(), is_rim)) {
+    const Hollows hollows(part, hull, kHollowStep * tolerance, repair.two_sided);
+    std::vector<double> hollow(open.size(), 0.0);
+    tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t i) {
+      if (is_rim(valleys[i]))
+        hollow[i] = lead_through_hollow(valleys[i], part, hollows, searches.local(), surface, tolerance);
+    });
+    bridges.concavity = std::max(bridges.concavity, *std::max_element(hollow.begin(), hollow.end()));
+  }
   for (std::size_t i = 0; i < open.size(); ++i) {
     if (valleys[i].path.empty()) continue;  // Joined by nothing but the bridge.
     if (!valleys[i].on_hull) bridges.concavity = std::max(bridges.concavity, valleys[i].concavity);
@@ -241,7 +245,7 @@ Bridges find_bridges(const PartGraph& part, const PartHull& hull, const SurfaceQ
     } else if (valleys[i].concavity > tolerance) {
       bridges.deep.push_back(std::move(valleys[i]));
     } else {
-      bridges.shallow.push_back({open[i].first, open[i].second, lengths[i]});
+      bridges.shallow.push_back({edges[open[i]].first, edges[open[i]].second, lengths[i]});
     }
   }
   return bridges;

@@ -9,16 +9,18 @@
 //
 // A valley that runs on the hull itself has nothing beneath the hull to show: it goes round a flat opening, as the rim
 // of a cup does round the mouth. Such rims do not count as concavity. They are cut where that helps (the outline of a
-// flat plate), see valley_decomposition.h.
+// flat plate), see valley_decomposition.h. With the repair for cups (cup_repair.h) a rim with a hollow beneath its
+// bridge that is deeper than the tolerance is led through it and counts.
 #pragma once
 
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "partwise/geometry/surface_query.h"
 #include "partwise/parts/solid/concavity_polygon.h"
+#include "partwise/parts/solid/cup_repair.h"
 #include "partwise/parts/solid/part_graph.h"
+#include "partwise/parts/solid/part_hull.h"
 
 namespace partwise {
 
@@ -26,7 +28,9 @@ struct Valley {
   std::vector<int> path;        // local vertices, from one end of the bridge to the other
   std::vector<Point2> profile;  // the flattened path
   double concavity = 0;
-  bool on_hull = false;  // deep, but no vertex is inside the hull by more than half the tolerance
+  int deepest = -1;             // the local vertex of that concavity
+  bool through_hollow = false;  // a rim once, until the repair for cups
+  bool on_hull = false;         // deep, but no vertex is inside the hull by more than half the tolerance
 };
 
 struct Bridges {
@@ -35,29 +39,19 @@ struct Bridges {
     double length;  // of the valley
   };
   std::vector<Shallow> shallow;
-  std::vector<Valley> deep;
+  std::vector<Valley> deep;  // with the repair for cups also former rims
   std::vector<Valley> rims;  // deep and on the hull: the rim of a cup, the outline of a plate
   double concavity =
       0;  // largest of all but the rims; for shallow valleys that were only bounded, their bound counts if it is larger
 };
 
-// The convex hull of a part: its edges by the part's own vertices (local, the lower first, ascending), and its planes.
-struct PartHull {
-  std::vector<std::pair<int, int>> edges;
-  Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> planes;
-};
-
-constexpr double kBridgeThickness = 1e-3;  // of the tolerance: flatter parts have the hull of a plate so thick
-
-PartHull part_hull(const PartGraph& part, double tolerance);
-// From a hull that is known. source: of each of its vertices the global vertex that it is.
-PartHull part_hull(const PartGraph& part, const Mesh& hull, std::span<const int> source);
-
 // All bridges of the part at a tolerance in model units. `surface` is the whole solid's.
-Bridges find_bridges(const PartGraph& part, const PartHull& hull, const SurfaceQuery& surface, double tolerance);
+Bridges find_bridges(const PartGraph& part, const PartHull& hull, const SurfaceQuery& surface, double tolerance,
+                     const CupRepair& repair = {});
 
 // Whether find_bridges() would find a deep valley other than rims; looks no further than the first.
-bool has_deep_valley(const PartGraph& part, const PartHull& hull, const SurfaceQuery& surface, double tolerance);
+bool has_deep_valley(const PartGraph& part, const PartHull& hull, const SurfaceQuery& surface, double tolerance,
+                     const CupRepair& repair = {});
 
 struct ConvexRidges {
   std::vector<std::vector<int>> members;  // hull vertices (local) of each ridge

@@ -95,6 +95,20 @@ TEST(ConvexRidges, HasDeepValleyAgreesWithFindBridges) {
                 !found.bridges.deep.empty());
       EXPECT_EQ(found.bridges.concavity > tolerance, !found.bridges.deep.empty());
     }
+  std::vector<Mesh> hollow = shapes();
+  hollow.push_back(test::cup(1, 1.5, 0.1, 24));
+  hollow.push_back(test::open_cup(1, 0.4, 24));
+  for (const Mesh& mesh : hollow)
+    for (double tolerance : {0.03, 0.1, 0.2, 0.5}) {
+      const Found found(mesh, tolerance);
+      const CupRepair repair{.on = true};
+      const Bridges bridges =
+          find_bridges(found.part, part_hull(found.part, tolerance), found.surface, tolerance, repair);
+      EXPECT_EQ(has_deep_valley(found.part, part_hull(found.part, tolerance), found.surface, tolerance, repair),
+                !bridges.deep.empty());
+      EXPECT_EQ(bridges.concavity > tolerance, !bridges.deep.empty());
+      EXPECT_EQ(bridges.deep.size() + bridges.rims.size(), found.bridges.deep.size() + found.bridges.rims.size());
+    }
 }
 
 TEST(ConvexRidges, ADumbbellHasTwo) {

@@ -57,6 +57,8 @@ void check(const Mesh& mesh, const DecompositionSettings& settings, double radiu
   if (relative < kSmallestTolerance)
     throw InputError("tolerance", fmt::format("{:g} of the bounding-sphere radius is too fine", relative),
                      fmt::format("give at least {:g}", kSmallestTolerance));
+  if (settings.cup_repair && settings.measure != ConcavityMeasure::valley)
+    throw InputError("cup_repair", "is of the measure valley", "leave it out, hull cuts cups anyway");
   if (settings.max_hulls < 0) throw InputError("max_hulls", "is negative", "give 0 for no limit");
   if (settings.max_hull_vertices < 0 || (settings.max_hull_vertices > 0 && settings.max_hull_vertices < 4))
     throw InputError("max_hull_vertices", "is below 4", "give 0 for no limit, or 4 and more");
@@ -86,17 +88,22 @@ struct Scene {
   }
 };
 
+CupRepair cup_repair(const Scene& scene, const DecompositionSettings& settings) {
+  return {.on = settings.cup_repair, .two_sided = !scene.closed};
+}
+
 std::vector<HullPart> valley_parts(const Scene& scene, double tolerance, const DecompositionSettings& settings,
                                    const Progress& progress) {
   const double thickness = kBridgeThickness * tolerance;
+  const CupRepair repair = cup_repair(scene, settings);
   std::vector<HullPart> parts;
   for (auto& group : connected_groups(scene.mesh, scene.all_faces())) {
-    for (auto& faces : valley_decomposition(scene.mesh, scene.surface, std::move(group), tolerance, progress))
+    for (auto& faces : valley_decomposition(scene.mesh, scene.surface, std::move(group), tolerance, repair, progress))
       parts.push_back(hull_part(scene.mesh, std::move(faces), thickness));
   }
   const AcceptMerge accept = [&](const HullPart& merged) {
     const PartGraph part = part_graph(scene.mesh, merged.faces);
-    return !has_deep_valley(part, part_hull(part, merged.hull, merged.source), scene.surface, tolerance);
+    return !has_deep_valley(part, part_hull(part, merged.hull, merged.source), scene.surface, tolerance, repair);
   };
   PartMerging merging(scene.mesh, scene.space, std::move(parts), accept,
                       {thickness, largest_air(scene.space, tolerance)});
@@ -132,14 +139,14 @@ struct Result {
   double concavity = 0;  // of the scaled mesh
 };
 
-double deepest_valley(const Scene& scene, const std::vector<HullPart>& parts, double tolerance,
+double deepest_valley(const Scene& scene, const std::vector<HullPart>& parts, double tolerance, const CupRepair& repair,
                       const Progress& progress) {
   double concavity = 0;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     progress("measuring", static_cast<double>(p) / static_cast<double>(parts.size()));
     const PartGraph part = part_graph(scene.mesh, parts[p].faces);
     const PartHull hull = part_hull(part, parts[p].hull, parts[p].source);  // the one that merging was asked about
-    concavity = std::max(concavity, find_bridges(part, hull, scene.surface, tolerance).concavity);
+    concavity = std::max(concavity, find_bridges(part, hull, scene.surface, tolerance, repair).concavity);
   }
   return concavity;
 }
@@ -171,7 +178,9 @@ Result run(const Mesh& input, Scene& scene, double tolerance, const Decompositio
   std::sort(result.parts.begin(), result.parts.end(),
             [](const HullPart& a, const HullPart& b) { return a.faces.front() < b.faces.front(); });
   if (settings.measure == ConcavityMeasure::valley) {
-    result.concavity = watch.time("measure", [&] { return deepest_valley(scene, result.parts, tolerance, progress); });
+    result.concavity = watch.time("measure", [&] {
+      return deepest_valley(scene, result.parts, tolerance, cup_repair(scene, settings), progress);
+    });
     for (HullPart& part : result.parts) set_hull(part, exact_corners(scene.mesh, part), thickness);
   }
   result.hulls = watch.time("hulls", [&] {

@@ -5,7 +5,7 @@
 //           the distance is to the surface. Certified, not sampled.
 //   valley  the dissertation's: the shortest path on the part between the ends of each edge of the part's convex hull
 //           is nowhere deeper below that edge than the tolerance. Paths that run on the hull itself, as a cup's rim
-//           does, do not count.
+//           does, do not count, unless `cup_repair` finds a hollow deeper than the tolerance beneath them.
 //
 // Input: any triangle mesh: several components, open, non-manifold, degenerate or repeated faces, isolated vertices.
 // Output: a label for every face; each part is a connected sub-mesh (connected: its faces share vertices) and has a
@@ -29,6 +29,7 @@ struct DecompositionSettings {
   double tolerance = 0.1;  // share of the bounding-sphere radius R of the input; model units with `absolute`
   bool absolute = false;
   ConcavityMeasure measure = ConcavityMeasure::hull;
+  bool cup_repair = false;    // section 2.4.8: `valley` finds the hollows of cups too; an error with `hull`
   int max_hulls = 0;          // 0: no limit. With a limit the tolerance may be exceeded; `concavity` says by how much
   int max_hull_vertices = 0;  // 0: no limit, else at least 4; hulls are simplified from outside
 };

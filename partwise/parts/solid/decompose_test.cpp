@@ -97,6 +97,9 @@ Decomposition checked(const Mesh& mesh, const DecompositionSettings& settings = 
   if (settings.max_hulls > 0) {
     EXPECT_LE(d.parts(), settings.max_hulls);
   }
+  if (settings.cup_repair && settings.max_hulls == 0) {
+    EXPECT_LE(d.concavity, d.tolerance);
+  }
   if (settings.measure == ConcavityMeasure::hull) {
     // Cubes near a needle's tip cannot be told from its inside: its bound is loose, and only samples are held to it.
     const bool promised = settings.max_hulls == 0 && settings.max_hull_vertices == 0;
@@ -191,6 +194,34 @@ TEST(Decompose, TheValleyMeasureCutsArmsToo) {
     EXPECT_LE(d.parts(), 5);
     EXPECT_LE(d.concavity, d.tolerance);
   }
+}
+
+TEST(Decompose, CupsAreCutWithTheRepair) {
+  const Mesh cup = test::cup(1, 1.5, 0.1, 48);
+  const Decomposition whole = checked(cup, {.measure = ConcavityMeasure::valley});
+  EXPECT_EQ(whole.parts(), 1);
+  EXPECT_GT(whole.volume_ratio, 3);
+  const Decomposition d = checked(cup, {.measure = ConcavityMeasure::valley, .cup_repair = true});
+  EXPECT_GE(d.parts(), 5);
+  EXPECT_LE(d.parts(), 40);
+  EXPECT_LT(d.volume_ratio, 1.6);
+  EXPECT_LE(d.concavity, d.tolerance);
+}
+
+TEST(Decompose, OpenCupsAreCutWithTheRepairEitherWayRound) {
+  Mesh cup = test::open_cup(1, 1.5, 48);
+  for (int turn = 0; turn < 2; ++turn) {
+    EXPECT_EQ(checked(cup, {.measure = ConcavityMeasure::valley}).parts(), 1);
+    const Decomposition d = checked(cup, {.measure = ConcavityMeasure::valley, .cup_repair = true});
+    EXPECT_GE(d.parts(), 5);
+    EXPECT_LE(d.concavity, d.tolerance);
+    cup.faces.col(0).swap(cup.faces.col(1));
+  }
+}
+
+TEST(Decompose, TheRepairLeavesConvexBodiesWhole) {
+  for (const Mesh& mesh : {cells_mesh(block({0, 0, 0}, {9, 2, 3})), test::sphere(12, 24)})
+    EXPECT_EQ(checked(mesh, {.measure = ConcavityMeasure::valley, .cup_repair = true}).parts(), 1);
 }
 
 TEST(Decompose, SeparateBodiesStaySeparate) {
@@ -326,6 +357,7 @@ TEST(Decompose, BadSettingsAndMeshesAreInputErrors) {
   for (double tolerance : {0.0, -1.0, 1e-9, infinity, nan})
     EXPECT_THROW(decompose(mesh, {.tolerance = tolerance}), InputError);
   EXPECT_THROW(decompose(mesh, {.tolerance = 1e-9, .absolute = true}), InputError);
+  EXPECT_THROW(decompose(mesh, {.cup_repair = true}), InputError);
   EXPECT_THROW(decompose(mesh, {.max_hulls = -1}), InputError);
   EXPECT_THROW(decompose(mesh, {.max_hull_vertices = -1}), InputError);
   EXPECT_THROW(decompose(mesh, {.max_hull_vertices = 3}), InputError);
@@ -388,6 +420,7 @@ TEST(Decompose, RandomSoups) {
     if (seed % 7 == 3) mesh.vertices *= 1e6;
     DecompositionSettings settings{.tolerance = 0.15 + 0.1 * static_cast<double>(random() % 4)};
     settings.measure = seed % 3 == 0 ? ConcavityMeasure::valley : ConcavityMeasure::hull;
+    settings.cup_repair = seed % 6 == 0;
     if (seed % 4 == 1) settings.max_hulls = 1 + static_cast<int>(random() % 3);
     if (seed % 4 == 2) settings.max_hull_vertices = 4 + static_cast<int>(random() % 6);
     try {

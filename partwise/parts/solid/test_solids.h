@@ -163,6 +163,34 @@ inline Mesh dumbbell(int around = 24) {
   return revolved(rings, -3, 3, around);
 }
 
+// The wall and the bottom of a cup, open at the top, without thickness; the bottom at z = 0.
+inline Mesh open_cup(double radius, double height, int around) {
+  std::vector<std::array<double, 2>> rings;
+  constexpr int kRows = 10;
+  for (int r = 1; r < kRows; ++r) rings.push_back({radius * r / kRows, 0});
+  for (int r = 0; r <= kRows; ++r) rings.push_back({radius, height * r / kRows});
+  Mesh mesh = revolved(rings, 0, 0, around);
+  std::vector<std::array<int, 3>> faces;
+  const int top = static_cast<int>(mesh.vertices.rows()) - 1;
+  for (const auto& f : mesh.faces.rowwise())
+    if (f.maxCoeff() < top) faces.push_back({f[0], f[1], f[2]});
+  std::vector<Point> vertices;
+  for (int v = 0; v < top; ++v) vertices.emplace_back(mesh.vertices.row(v));
+  return mesh_of(vertices, faces);
+}
+
+// A cup that stands on z = 0, wall and bottom equally thick, its mouth at z = height.
+inline Mesh cup(double radius, double height, double wall, int around) {
+  std::vector<std::array<double, 2>> rings;
+  constexpr int kRows = 10;
+  const double inner = radius - wall;
+  for (int r = 1; r < kRows; ++r) rings.push_back({radius * r / kRows, 0});
+  for (int r = 0; r <= kRows; ++r) rings.push_back({radius, height * r / kRows});
+  for (int r = kRows; r >= 0; --r) rings.push_back({inner, wall + (height - wall) * r / kRows});
+  for (int r = kRows - 1; r > 0; --r) rings.push_back({inner * r / kRows, wall});
+  return revolved(rings, 0, wall, around);
+}
+
 inline Mesh torus(double large, double small, int around, int across) {
   std::vector<Point> vertices;
   std::vector<std::array<int, 3>> faces;

@@ -14,6 +14,8 @@ namespace {
 
 // Rims are cut when the largest piece's concavity is at most this share of the whole's.
 constexpr double kConcavityLeft = 0.8;
+// Where the largest piece of a hollow part keeps more than this share of the faces, a plane cuts the part instead.
+constexpr double kFacesLeft = 0.5;
 
 // Numbers the pieces of each label that hang together by edges; a piece without a vertex of its ridge joins the piece
 // with which it shares the longest border. Returns the piece of each local face.
@@ -74,39 +76,39 @@ const Valley* deepest(const std::vector<Valley>& valleys) {
   return found == valleys.end() ? nullptr : &*found;
 }
 
-Point deepest_point(const PartGraph& part, const Valley& valley, double tolerance) {
-  const std::vector<double> concavity = valley_concavity(valley.profile, tolerance);
-  const auto at = std::max_element(concavity.begin(), concavity.end()) - concavity.begin();
-  return part.positions.row(valley.path[static_cast<std::size_t>(at)]);
+const std::vector<int>& largest(const std::vector<std::vector<int>>& groups) {
+  return *std::max_element(groups.begin(), groups.end(),
+                           [](const auto& a, const auto& b) { return a.size() < b.size(); });
 }
 
 }  // namespace
 
 std::vector<std::vector<int>> separate_once(const Mesh& mesh, const SurfaceQuery& surface,
-                                            const std::vector<int>& faces, double tolerance) {
+                                            const std::vector<int>& faces, double tolerance, const CupRepair& repair) {
   const PartGraph part = part_graph(mesh, faces);
-  Bridges bridges = find_bridges(part, part_hull(part, tolerance), surface, tolerance);
+  Bridges bridges = find_bridges(part, part_hull(part, tolerance), surface, tolerance, repair);
   if (const Valley* valley = deepest(bridges.deep)) {
     std::vector<std::vector<int>> groups = separate(mesh, part, bridges, tolerance);
-    if (groups.size() > 1) return groups;
-    return split_by_plane(mesh, faces, deepest_point(part, *valley, tolerance), kBridgeThickness * tolerance);
+    // Ridges along the mouth of a hollow keep little more than the rim, and what is left is as hollow as before.
+    const bool crumbled = static_cast<double>(largest(groups).size()) > kFacesLeft * static_cast<double>(faces.size());
+    if (groups.size() > 1 && !(valley->through_hollow && crumbled)) return groups;
+    return split_by_plane(mesh, faces, part.positions.row(valley->deepest), kBridgeThickness * tolerance);
   }
   if (bridges.rims.empty()) return {faces};
   // Rims alone: separate there if that makes them shallower.
   const double before = deepest(bridges.rims)->concavity;
   bridges.deep = std::move(bridges.rims);
   std::vector<std::vector<int>> groups = separate(mesh, part, bridges, tolerance);
-  const auto largest =
-      std::max_element(groups.begin(), groups.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
-  const PartGraph left = part_graph(mesh, *largest);
-  const Bridges after = find_bridges(left, part_hull(left, tolerance), surface, tolerance);
+  const PartGraph left = part_graph(mesh, largest(groups));
+  const Bridges after = find_bridges(left, part_hull(left, tolerance), surface, tolerance, repair);
   const Valley* rim = deepest(after.rims);
   if (std::max(after.concavity, rim ? rim->concavity : 0) > kConcavityLeft * before) return {faces};
   return groups;
 }
 
 std::vector<std::vector<int>> valley_decomposition(const Mesh& mesh, const SurfaceQuery& surface,
-                                                   std::vector<int> faces, double tolerance, const Progress& progress) {
+                                                   std::vector<int> faces, double tolerance, const CupRepair& repair,
+                                                   const Progress& progress) {
   std::vector<std::vector<int>> done, open{std::move(faces)};
   const double total = static_cast<double>(open.front().size());
   double finished = 0;
@@ -114,7 +116,7 @@ std::vector<std::vector<int>> valley_decomposition(const Mesh& mesh, const Surfa
     progress("convex ridges", finished / total);
     std::vector<int> current = std::move(open.back());
     open.pop_back();
-    std::vector<std::vector<int>> split = separate_once(mesh, surface, current, tolerance);
+    std::vector<std::vector<int>> split = separate_once(mesh, surface, current, tolerance, repair);
     if (split.size() > 1) {
       for (auto& group : split) open.push_back(std::move(group));
     } else {
