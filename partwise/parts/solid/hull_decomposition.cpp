@@ -50,6 +50,8 @@ std::vector<HullPart> hull_decomposition(const Mesh& mesh, const SurfaceQuery& s
     PartMerging merge(mesh, space, std::move(parts), accept, merging);
     do merge.merge(progress);
     while (merge.dissolve(progress) > 0);
+    merge.refine();
+    while (merge.dissolve(progress) > 0) merge.merge(progress);
     parts = merge.parts();
   }
   if (absorb_faces(mesh, parts, settings.minimum_thickness)) {

@@ -11,13 +11,14 @@
 #include <set>
 
 #include "partwise/geometry/convex_hull.h"
+#include "partwise/parts/solid/plane_split.h"
 
 namespace partwise {
 namespace {
 
 constexpr int kSketchDirections = 96;
 constexpr double kGrowthPrice = 0.1;  // of a volume of solid taken in, against the same volume of air
-constexpr std::size_t kMostPiecesToDissolve = 8;
+constexpr std::size_t kMostPiecesToDissolve = 12;
 
 // Whether b's hull lies in a's: then theirs together is a's.
 bool encloses(const HullPart& a, const HullPart& b) {
@@ -95,7 +96,7 @@ Vertices corners_of(const Mesh& mesh, const std::vector<int>& faces) {
 }
 
 double largest_air(const SpaceSamples& space, double tolerance) {
-  constexpr double kShare = 10;
+  constexpr double kShare = 8;
   const double solid = space.volume * static_cast<double>(space.solid.size());
   return solid > 0 ? kShare * tolerance * tolerance * solid : std::numeric_limits<double>::infinity();
 }
@@ -293,9 +294,10 @@ bool PartMerging::dissolve_part(int part) {
   };
   std::vector<int> left = parts_[part].pieces;
   std::map<int, int> goes_to;
-  std::set<std::pair<int, int>> refused;  // (piece, part): a larger part would be refused as well
+  std::set<std::pair<int, int>> refused;        // (piece, part): a larger part would be refused as well
+  std::map<std::pair<int, int>, double> known;  // (piece, part): cost, until the part grows
   while (!left.empty()) {
-    std::vector<Growth> growths;
+    std::vector<Growth> growths, fresh;
     for (int piece : left) {
       std::set<int> beside;
       for (int other : piece_neighbours_[piece]) {
@@ -304,11 +306,18 @@ bool PartMerging::dissolve_part(int part) {
         if (owner != part && !refused.count({piece, owner}) && !parts_[owner].refused_pieces.count(piece))
           beside.insert(owner);
       }
-      for (int p : beside) growths.push_back({0, piece, p});
+      for (int p : beside) {
+        const auto cost = known.find({piece, p});
+        if (cost != known.end())
+          growths.push_back({cost->second, piece, p});
+        else
+          fresh.push_back({0, piece, p});
+      }
     }
-    tbb::parallel_for(std::size_t{0}, growths.size(), [&](std::size_t i) {
-      growths[i].cost = cost_of(body(growths[i].part), pieces_[growths[i].piece]);
-    });
+    tbb::parallel_for(std::size_t{0}, fresh.size(),
+                      [&](std::size_t i) { fresh[i].cost = cost_of(body(fresh[i].part), pieces_[fresh[i].piece]); });
+    for (const Growth& g : fresh) known[{g.piece, g.part}] = g.cost;
+    growths.insert(growths.end(), fresh.begin(), fresh.end());
     std::sort(growths.begin(), growths.end(), [](const Growth& x, const Growth& y) {
       if (x.cost != y.cost) return x.cost < y.cost;
       return x.piece != y.piece ? x.piece < y.piece : x.part < y.part;
@@ -322,6 +331,7 @@ bool PartMerging::dissolve_part(int part) {
         continue;
       }
       taker[g.part] = std::move(grown);
+      std::erase_if(known, [&](const auto& entry) { return entry.first.second == g.part; });
       goes_to[g.piece] = g.part;
       std::erase(left, g.piece);
       placed = true;
@@ -351,6 +361,25 @@ int PartMerging::dissolve(const Progress& progress) {
     gone += dissolve_part(order[i]);
   }
   return gone;
+}
+
+void PartMerging::refine() {
+  std::vector<HullPart> finer;
+  std::vector<int> part_of;
+  for (std::size_t p = 0; p < pieces_.size(); ++p) {
+    for (auto& group : halve(mesh_, pieces_[p].faces)) {
+      finer.push_back(hull_part(mesh_, std::move(group), settings_.minimum_thickness));
+      part_of.push_back(part_of_[p]);
+    }
+  }
+  pieces_ = std::move(finer);
+  part_of_ = std::move(part_of);
+  piece_neighbours_ = neighbours_by_vertex(mesh_, pieces_);
+  for (Part& part : parts_) {
+    part.pieces.clear();
+    part.refused_pieces.clear();
+  }
+  for (int p = 0; p < static_cast<int>(pieces_.size()); ++p) parts_[part_of_[p]].pieces.push_back(p);
 }
 
 std::vector<HullPart> PartMerging::parts() const {

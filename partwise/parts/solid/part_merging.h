@@ -73,6 +73,9 @@ class PartMerging {
   // Tries once to dissolve each part, smallest volume first. Returns how many went.
   int dissolve(const Progress& progress);
 
+  // Cuts every piece in two or more; the parts stay. Halves find room in neighbours where whole pieces did not.
+  void refine();
+
   std::vector<HullPart> parts() const;
 
  private:

@@ -128,6 +128,52 @@ TEST(PartMerging, DissolvesWhatItsNeighboursCanTake) {
   }
 }
 
+// The middle of three pieces of length 2 fits in neither neighbour; its halves do.
+TEST(PartMerging, HalvedPiecesFitWhereWholeOnesDoNot) {
+  const Mesh mesh = test::cells_mesh(block({0, 0, 0}, {6, 1, 1}));
+  std::vector<std::vector<int>> thirds(3);
+  for (int f = 0; f < mesh.faces.rows(); ++f) {
+    const double x = corners_of(mesh, {f}).col(0).mean();
+    thirds[static_cast<std::size_t>(std::min(2, static_cast<int>(x / 2)))].push_back(f);
+  }
+  std::vector<HullPart> pieces;
+  for (auto& faces : thirds) pieces.push_back(hull_part(mesh, std::move(faces), 1e-4));
+  const SpaceSamples space = samples_of(mesh);
+  const AcceptMerge at_most_three = [](const HullPart& merged) { return merged.volume < 3.1; };
+  PartMerging merging(mesh, space, std::move(pieces), at_most_three, {});
+  merging.merge({});
+  EXPECT_EQ(merging.dissolve({}), 0);
+  ASSERT_EQ(merging.parts().size(), 3u);
+  merging.refine();
+  EXPECT_EQ(merging.parts().size(), 3u);
+  EXPECT_EQ(merging.dissolve({}), 1);
+  ASSERT_EQ(merging.parts().size(), 2u);
+  EXPECT_EQ(faces_of(merging.parts()), test::all_faces(mesh));
+  for (const HullPart& part : merging.parts()) EXPECT_NEAR(part.volume, 3, 1e-4);
+}
+
+// A thickened hull stands for its points as they were: hulls made of hulls stay exact.
+TEST(HullPart, ThickenedHullsAreMadeAnewFromTheirPoints) {
+  const Mesh mesh = test::cells_mesh(block({0, 0, 0}, {2, 2, 2}));
+  std::vector<int> bottom, rest;
+  for (int f = 0; f < mesh.faces.rows(); ++f)
+    (corners_of(mesh, {f}).col(2).maxCoeff() == 0 ? bottom : rest).push_back(f);
+  const HullPart plate = hull_part(mesh, bottom, 0.1);
+  ASSERT_TRUE(plate.thickened);
+  EXPECT_NEAR(plate.volume, 4 * 0.1, 1e-12);
+  const Corners corners = exact_corners(mesh, plate);
+  EXPECT_EQ(corners.points.col(2).cwiseAbs().maxCoeff(), 0);
+  HullPart both;
+  Corners all = corners;
+  const HullPart open = hull_part(mesh, rest, 0.1);
+  all.append(open.hull.vertices, open.source);
+  set_hull(both, all, 0.1);
+  EXPECT_FALSE(both.thickened);
+  EXPECT_NEAR(both.volume, 8, 1e-12);
+  for (std::size_t v = 0; v < both.source.size(); ++v)
+    EXPECT_EQ(both.hull.vertices.row(static_cast<Eigen::Index>(v)), mesh.vertices.row(both.source[v]));
+}
+
 TEST(HullPart, CornersOfFacesAndExtremePoints) {
   const Mesh mesh = test::cells_mesh(block({0, 0, 0}, {3, 3, 3}));
   const HullPart part = hull_part(mesh, test::all_faces(mesh), 1e-4);

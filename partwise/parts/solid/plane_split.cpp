@@ -32,12 +32,20 @@ Centroids centroids(const Mesh& mesh, const std::vector<int>& faces) {
   return c;
 }
 
+Point middle(const Centroids& c) {
+  return (c.at.array().colwise() * c.area.array()).colwise().sum() / std::max(c.area.sum(), 1e-300);
+}
+
+// By columns, the longest last.
+Eigen::Matrix3d principal_axes(const Centroids& c) {
+  const Vertices centred = c.at.rowwise() - middle(c);
+  const Eigen::Matrix3d covariance = centred.transpose() * (centred.array().colwise() * c.area.array()).matrix();
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors();
+}
+
 // The principal axes of the surface, the directions half-way between two of them, and those between all three.
 std::array<Eigen::Vector3d, 13> plane_normals(const Centroids& c) {
-  const Point mean = (c.at.array().colwise() * c.area.array()).colwise().sum() / std::max(c.area.sum(), 1e-300);
-  const Vertices centred = c.at.rowwise() - mean;
-  const Eigen::Matrix3d covariance = centred.transpose() * (centred.array().colwise() * c.area.array()).matrix();
-  const Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors();
+  const Eigen::Matrix3d axes = principal_axes(c);
   std::array<Eigen::Vector3d, 13> normals;
   std::size_t n = 0;
   for (int i = 0; i < 27; ++i) {
@@ -45,6 +53,12 @@ std::array<Eigen::Vector3d, 13> plane_normals(const Centroids& c) {
     if (i > 13) normals[n++] = (axes * mix).normalized();  // One of each pair of opposites.
   }
   return normals;
+}
+
+std::vector<std::vector<int>> connected_pieces(const Mesh& mesh, const std::array<std::vector<int>, 2>& sides) {
+  std::vector<std::vector<int>> pieces = connected_groups(mesh, sides[0]);
+  for (auto& group : connected_groups(mesh, sides[1])) pieces.push_back(std::move(group));
+  return pieces;
 }
 
 }  // namespace
@@ -71,15 +85,21 @@ std::vector<std::vector<int>> split_by_plane(const Mesh& mesh, const std::vector
                                         [](const Trial& a, const Trial& b) { return a.volume < b.volume; });
   if (best.volume == std::numeric_limits<double>::infinity()) {
     // The tip of a simplified hull can lie so far out that no plane through it meets the part: then through its middle.
-    const Point middle = c.at.colwise().mean();
-    if (through != middle) return split_by_plane(mesh, faces, middle, minimum_thickness);
+    const Point mean = c.at.colwise().mean();
+    if (through != mean) return split_by_plane(mesh, faces, mean, minimum_thickness);
     std::vector<std::vector<int>> single;  // Faces that no plane can tell apart.
     for (int f : faces) single.push_back({f});
     return single;
   }
-  std::vector<std::vector<int>> pieces = connected_groups(mesh, best.side[0]);
-  for (auto& group : connected_groups(mesh, best.side[1])) pieces.push_back(std::move(group));
-  return pieces;
+  return connected_pieces(mesh, best.side);
+}
+
+std::vector<std::vector<int>> halve(const Mesh& mesh, const std::vector<int>& faces) {
+  const Centroids c = centroids(mesh, faces);
+  const Eigen::VectorXd height = (c.at.rowwise() - middle(c)) * principal_axes(c).col(2);
+  std::array<std::vector<int>, 2> side;
+  for (std::size_t i = 0; i < faces.size(); ++i) side[height[static_cast<Eigen::Index>(i)] > 0].push_back(faces[i]);
+  return connected_pieces(mesh, side);
 }
 
 }  // namespace partwise

@@ -15,4 +15,8 @@ namespace partwise {
 std::vector<std::vector<int>> split_by_plane(const Mesh& mesh, const std::vector<int>& faces, const Point& through,
                                              double minimum_thickness);
 
+// The two sides of the plane through the middle of the faces' centroids across their longest principal axis, each in
+// its connected pieces; the faces themselves where all lie on one side.
+std::vector<std::vector<int>> halve(const Mesh& mesh, const std::vector<int>& faces);
+
 }  // namespace partwise
