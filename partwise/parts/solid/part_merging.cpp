@@ -96,7 +96,7 @@ Vertices corners_of(const Mesh& mesh, const std::vector<int>& faces) {
 }
 
 double largest_air(const SpaceSamples& space, double tolerance) {
-  constexpr double kShare = 8;
+  constexpr double kShare = 7;
   const double solid = space.volume * static_cast<double>(space.solid.size());
   return solid > 0 ? kShare * tolerance * tolerance * solid : std::numeric_limits<double>::infinity();
 }
