@@ -93,7 +93,7 @@ Ridges find_ridges(const Mesh& mesh, double tolerance) {
   Ridges found;
   for (const std::vector<int>& group : partwise::connected_groups(mesh, faces)) {
     const partwise::PartGraph part = partwise::part_graph(mesh, group);
-    const partwise::Bridges bridges = partwise::find_bridges(part, surface, tolerance);
+    const partwise::Bridges bridges = find_bridges(part, part_hull(part, tolerance), surface, tolerance);
     found.shallow += static_cast<int>(bridges.shallow.size());
     found.deep += static_cast<int>(bridges.deep.size());
     found.rims += static_cast<int>(bridges.rims.size());
