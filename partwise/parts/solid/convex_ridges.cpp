@@ -13,8 +13,7 @@
 namespace partwise {
 namespace {
 
-constexpr double kOnHullDepth = 0.5;  // of the tolerance
-constexpr double kHollowStep = 0.5;   // of the tolerance: how far a walk into a hollow looks over flat places
+constexpr double kHollowStep = 0.5;  // of the tolerance: how far a walk into a hollow looks over flat places
 
 // The end of each edge that its path is sought from: one search serves all edges of an end, so the end with more. It
 // depends on the hull alone, for of equally short paths the source decides which is found.
@@ -124,7 +123,7 @@ double lead_through_hollow(Valley& rim, const PartGraph& part, const Hollows& ho
 }  // namespace
 
 bool has_deep_valley(const PartGraph& part, const PartHull& hull, const SurfaceQuery& surface, double tolerance,
-                     const CupRepair& repair) {
+                     const CupRepair& repair, double rim_depth) {
   const auto& edges = hull.edges;
   const std::vector<int> source = sources(hull, part.size());
   std::vector<std::vector<std::size_t>> of_source(part.vertices.size());
@@ -138,7 +137,7 @@ bool has_deep_valley(const PartGraph& part, const PartHull& hull, const SurfaceQ
   std::stable_sort(order.begin(), order.end(), [&](std::size_t x, std::size_t y) { return span[x] > span[y]; });
   std::vector<char> settled(edges.size(), 0);
   PathSearch search(part);
-  NearHull near_hull(part, hull, kOnHullDepth * tolerance);
+  NearHull near_hull(part, hull, rim_depth * tolerance);
   std::optional<Hollows> hollows;
   std::vector<Valley> rims;  // kept until the search's paths have been read: the repair searches anew
   for (const std::size_t i : order) {
@@ -176,11 +175,11 @@ bool has_deep_valley(const PartGraph& part, const PartHull& hull, const SurfaceQ
 }
 
 Bridges find_bridges(const PartGraph& part, const PartHull& hull, const SurfaceQuery& surface, double tolerance,
-                     const CupRepair& repair) {
+                     const CupRepair& repair, double rim_depth) {
   const auto& edges = hull.edges;
   const std::vector<int> source = sources(hull, part.size());
   tbb::enumerable_thread_specific<PathSearch> searches([&] { return PathSearch(part); });
-  tbb::enumerable_thread_specific<NearHull> near_hulls([&] { return NearHull(part, hull, kOnHullDepth * tolerance); });
+  tbb::enumerable_thread_specific<NearHull> near_hulls([&] { return NearHull(part, hull, rim_depth * tolerance); });
 
   // A path of length l over a bridge of length L is nowhere deeper than sqrt(l^2 - L^2) / 2: most are settled by that.
   std::vector<double> shallow_length(edges.size());

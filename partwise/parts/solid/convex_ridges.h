@@ -30,7 +30,7 @@ struct Valley {
   double concavity = 0;
   int deepest = -1;             // the local vertex of that concavity
   bool through_hollow = false;  // a rim once, until the repair for cups
-  bool on_hull = false;         // deep, but no vertex is inside the hull by more than half the tolerance
+  bool on_hull = false;         // deep, but no vertex is inside the hull by more than the depth of rims
 };
 
 struct Bridges {
@@ -45,13 +45,18 @@ struct Bridges {
       0;  // largest of all but the rims; for shallow valleys that were only bounded, their bound counts if it is larger
 };
 
+// How deep inside the hull a rim's vertices may lie, of the tolerance: while parts are cut, and when they merge.
+// Cutting at the rims of thin plates and limbs finds the natural pieces; merging may then leave flat bends that take in
+// little air.
+constexpr double kRimDepthCutting = 0.25, kRimDepthMerging = 0.5;
+
 // All bridges of the part at a tolerance in model units. `surface` is the whole solid's.
 Bridges find_bridges(const PartGraph& part, const PartHull& hull, const SurfaceQuery& surface, double tolerance,
-                     const CupRepair& repair = {});
+                     const CupRepair& repair = {}, double rim_depth = kRimDepthCutting);
 
 // Whether find_bridges() would find a deep valley other than rims; looks no further than the first.
 bool has_deep_valley(const PartGraph& part, const PartHull& hull, const SurfaceQuery& surface, double tolerance,
-                     const CupRepair& repair = {});
+                     const CupRepair& repair = {}, double rim_depth = kRimDepthCutting);
 
 struct ConvexRidges {
   std::vector<std::vector<int>> members;  // hull vertices (local) of each ridge

@@ -25,6 +25,7 @@ constexpr double kLargestThickness = 1e-3;     // of R: what flat hulls are give
 constexpr double kSmallestCube = 1.0 / 32;     // of the tolerance: side of the smallest cubes of the octree
 constexpr double kCertainty = 1 - 1e-4;        // of the tolerance: room for distances in single precision
 constexpr double kMeasureAccuracy = 1.0 / 16;  // of the tolerance: of the concavity that is reported
+constexpr double kLargestAir = 10;             // see largest_air(); of the measure valley
 constexpr int kSamples = 6000;                 // of the space in the convex hull
 constexpr double kCoarseEdge = 0.5;            // of the tolerance: longest edge of a mesh whose faces are cut inside
 constexpr int kCoarseFaces = 5000;             // meshes with more faces are not cut inside
@@ -103,10 +104,11 @@ std::vector<HullPart> valley_parts(const Scene& scene, double tolerance, const D
   }
   const AcceptMerge accept = [&](const HullPart& merged) {
     const PartGraph part = part_graph(scene.mesh, merged.faces);
-    return !has_deep_valley(part, part_hull(part, merged.hull, merged.source), scene.surface, tolerance, repair);
+    return !has_deep_valley(part, part_hull(part, merged.hull, merged.source), scene.surface, tolerance, repair,
+                            kRimDepthMerging);
   };
   PartMerging merging(scene.mesh, scene.space, std::move(parts), accept,
-                      {thickness, largest_air(scene.space, tolerance)});
+                      {thickness, largest_air(scene.space, tolerance, kLargestAir)});
   do merging.merge(progress);
   while (merging.dissolve(progress) > 0);
   parts = merging.parts();
@@ -146,7 +148,8 @@ double deepest_valley(const Scene& scene, const std::vector<HullPart>& parts, do
     progress("measuring", static_cast<double>(p) / static_cast<double>(parts.size()));
     const PartGraph part = part_graph(scene.mesh, parts[p].faces);
     const PartHull hull = part_hull(part, parts[p].hull, parts[p].source);  // the one that merging was asked about
-    concavity = std::max(concavity, find_bridges(part, hull, scene.surface, tolerance, repair).concavity);
+    concavity =
+        std::max(concavity, find_bridges(part, hull, scene.surface, tolerance, repair, kRimDepthMerging).concavity);
   }
   return concavity;
 }

@@ -11,6 +11,7 @@ namespace partwise {
 namespace {
 
 constexpr double kPieceTolerance = 0.35;  // of the tolerance: what pieces are cut to, so that merging has room
+constexpr double kLargestAir = 7;         // see largest_air()
 
 // Parts that break the promise once their hulls are simplified are cut until they keep it.
 void keep_promise(const Mesh& mesh, const HullPromise& promise, std::vector<HullPart>& parts,
@@ -45,7 +46,7 @@ std::vector<HullPart> hull_decomposition(const Mesh& mesh, const SurfaceQuery& s
   keep_promise(mesh, promise, parts, settings.minimum_thickness);
 
   const AcceptMerge accept = [&](const HullPart& merged) { return promise.holds(merged.hull); };
-  const MergeSettings merging{settings.minimum_thickness, largest_air(space, promise.tolerance())};
+  const MergeSettings merging{settings.minimum_thickness, largest_air(space, promise.tolerance(), kLargestAir)};
   {
     PartMerging merge(mesh, space, std::move(parts), accept, merging);
     do merge.merge(progress);

@@ -95,10 +95,9 @@ Vertices corners_of(const Mesh& mesh, const std::vector<int>& faces) {
   return mesh.vertices(vertices_of(mesh, faces), Eigen::all);
 }
 
-double largest_air(const SpaceSamples& space, double tolerance) {
-  constexpr double kShare = 7;
+double largest_air(const SpaceSamples& space, double tolerance, double factor) {
   const double solid = space.volume * static_cast<double>(space.solid.size());
-  return solid > 0 ? kShare * tolerance * tolerance * solid : std::numeric_limits<double>::infinity();
+  return solid > 0 ? factor * tolerance * tolerance * solid : std::numeric_limits<double>::infinity();
 }
 
 void Corners::append(const Vertices& more, const std::vector<int>& their_source) {

@@ -49,9 +49,9 @@ void set_hull(HullPart& part, const Corners& corners, double minimum_thickness);
 // Whether two parts may become this one. Called in a fixed order from one thread.
 using AcceptMerge = std::function<bool(const HullPart& merged)>;
 
-// The most air that a merge may take in: a share of the solid that grows with the square of the tolerance (in R). Where
-// parts are long and thin a merge can keep its promise and yet be mostly air. Infinite for open surfaces.
-double largest_air(const SpaceSamples& space, double tolerance);
+// The most air that a merge may take in: `factor` times the square of the tolerance (in R), as a share of the solid.
+// Where parts are long and thin a merge can keep its promise and yet be mostly air. Infinite for open surfaces.
+double largest_air(const SpaceSamples& space, double tolerance, double factor);
 
 struct MergeSettings {
   double minimum_thickness = 1e-4;  // of hulls, model units
