@@ -134,7 +134,7 @@ void run(const std::filesystem::path& folder) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
+  if (argc != 2 || argv[1][0] == '-') {  // --help is no folder
     fmt::print(stderr, "usage: partwise_demo OUT_DIR\n");
     return 2;
   }

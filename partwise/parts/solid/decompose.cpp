@@ -15,6 +15,7 @@
 #include "partwise/geometry/union_volume.h"
 #include "partwise/parts/solid/convex_ridges.h"
 #include "partwise/parts/solid/hull_decomposition.h"
+#include "partwise/parts/solid/part_merging.h"
 #include "partwise/parts/solid/valley_decomposition.h"
 
 namespace partwise {

@@ -4,6 +4,7 @@
 
 #include "partwise/geometry/convex_hull.h"
 #include "partwise/parts/solid/hull_splitting.h"
+#include "partwise/parts/solid/part_merging.h"
 #include "partwise/parts/solid/plane_split.h"
 #include "partwise/parts/solid/valley_decomposition.h"
 

@@ -1,5 +1,5 @@
-// Parts by the `hull` measure: pieces cut to half the tolerance (hull_splitting.h), merged while their common hull
-// stays within it (part_merging.h), finished (part_finishing.h).
+// Parts by the `hull` measure: pieces cut to about a third of the tolerance (hull_splitting.h), merged while their
+// common hull stays within it (part_merging.h), finished (part_finishing.h).
 //
 // Cost: a part of n vertices costs O(n log n) for its hull and O(n) searches for its bridges; merging k pieces takes
 // O(k log k) hulls of at most 200 points, each with a test against the octree of distances.

@@ -7,8 +7,9 @@
 
 #include <vector>
 
+#include "partwise/base/progress.h"
+#include "partwise/parts/solid/hull_part.h"
 #include "partwise/parts/solid/outside_distance.h"
-#include "partwise/parts/solid/part_merging.h"
 
 namespace partwise {
 

@@ -3,8 +3,9 @@
 
 #include <vector>
 
+#include "partwise/parts/solid/hull_part.h"
 #include "partwise/parts/solid/hull_promise.h"
-#include "partwise/parts/solid/part_merging.h"
+#include "partwise/parts/solid/space_samples.h"
 
 namespace partwise {
 

@@ -12,39 +12,10 @@
 
 #include "partwise/base/progress.h"
 #include "partwise/geometry/mesh.h"
+#include "partwise/parts/solid/hull_part.h"
 #include "partwise/parts/solid/space_samples.h"
 
 namespace partwise {
-
-struct HullPart {
-  std::vector<int> faces = {};  // of the mesh, ascending
-  Mesh hull = {};  // the convex hull of the faces' vertices, and of points inside the solid that it takes in
-  std::vector<int> source = {};  // for each hull vertex the mesh's vertex that it is (thickened: was moved from), or -1
-  bool thickened = false;
-  Vertices sketch = {};  // extreme_points() of the hull's vertices, for quick estimates
-  double volume = 0;     // of the hull
-};
-
-// The points that are extreme in one of a fixed set of directions spread over the sphere: at most 96 of them.
-Vertices extreme_points(const Vertices& points);
-
-// The vertices that the faces listed use: their numbers, ascending, and where they are.
-std::vector<int> vertices_of(const Mesh& mesh, const std::vector<int>& faces);
-Vertices corners_of(const Mesh& mesh, const std::vector<int>& faces);
-
-HullPart hull_part(const Mesh& mesh, std::vector<int> faces, double minimum_thickness);
-
-// The points whose convex hull is the part's, where they were before thickening; `source` as in HullPart.
-struct Corners {
-  Vertices points;
-  std::vector<int> source;
-
-  void append(const Vertices& more, const std::vector<int>& their_source);
-};
-Corners exact_corners(const Mesh& mesh, const HullPart& part);
-
-// The same part with the hull of these points.
-void set_hull(HullPart& part, const Corners& corners, double minimum_thickness);
 
 // Whether two parts may become this one. Called in a fixed order from one thread.
 using AcceptMerge = std::function<bool(const HullPart& merged)>;
@@ -73,7 +44,7 @@ class PartMerging {
   // Tries once to dissolve each part, smallest volume first. Returns how many went.
   int dissolve(const Progress& progress);
 
-  // Cuts every piece in two or more; the parts stay. Halves find room in neighbours where whole pieces did not.
+  // Halves every piece; the parts stay. Halves find room in neighbours where whole pieces did not.
   void refine();
 
   std::vector<HullPart> parts() const;

@@ -9,8 +9,8 @@
 #include <limits>
 
 #include "partwise/geometry/convex_hull.h"
+#include "partwise/parts/solid/hull_part.h"
 #include "partwise/parts/solid/part_graph.h"
-#include "partwise/parts/solid/part_merging.h"
 
 namespace partwise {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "partwise/parts/solid/part_merging.h"
+#include "partwise/parts/solid/hull_part.h"
 #include "partwise/parts/solid/test_solids.h"
 
 namespace partwise {
