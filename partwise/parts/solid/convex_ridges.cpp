@@ -143,7 +143,7 @@ bool has_deep_valley(const PartGraph& part, const PartHull& hull, const SurfaceQ
   for (const std::size_t i : order) {
     if (settled[i]) continue;
     const auto [a, b] = edges[i];
-    if (std::isfinite(search.bounded_length(a, b, std::hypot(span[i], 2 * tolerance)))) continue;
+    if (search.has_path(a, b, std::hypot(span[i], 2 * tolerance))) continue;
     if (runs_inside(surface, part.positions.row(a), part.positions.row(b))) continue;
     std::vector<std::size_t> together;
     std::vector<int> targets;

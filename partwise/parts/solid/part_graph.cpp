@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <optional>
 #include <queue>
@@ -43,25 +42,34 @@ PartGraph part_graph(const Mesh& mesh, std::span<const int> faces) {
   }
   part.positions = mesh.vertices(part.vertices, Eigen::all);
 
+  // Half-edges by lower, then by higher vertex, then by face: sorted by the lower one through counting, for each has
+  // few.
   struct HalfEdge {
-    std::uint64_t ends;  // the lower vertex in the upper half
-    int face, opposite;
+    int high, face, opposite;
   };
-  std::vector<HalfEdge> half_edges;
-  half_edges.reserve(3 * faces.size());
   part.corners.reserve(faces.size());
+  std::vector<int> lower(part.vertices.size() + 1, 0);
   for (int f : faces) {
-    const std::array<int, 3> c{local[mesh.faces(f, 0)], local[mesh.faces(f, 1)], local[mesh.faces(f, 2)]};
+    part.corners.push_back({local[mesh.faces(f, 0)], local[mesh.faces(f, 1)], local[mesh.faces(f, 2)]});
+    const auto& c = part.corners.back();
+    for (int k = 0; k < 3; ++k)
+      if (c[k] != c[(k + 1) % 3]) ++lower[std::min(c[k], c[(k + 1) % 3]) + 1];
+  }
+  for (std::size_t v = 0; v < part.vertices.size(); ++v) lower[v + 1] += lower[v];
+  std::vector<HalfEdge> half_edges(static_cast<std::size_t>(lower.back()));
+  std::vector<int> end(lower.begin(), lower.end() - 1);
+  for (int f = 0; f < static_cast<int>(part.corners.size()); ++f) {
+    const auto& c = part.corners[f];
     for (int k = 0; k < 3; ++k) {
       const auto [low, high] = std::minmax(c[k], c[(k + 1) % 3]);
-      if (low == high) continue;
-      half_edges.push_back({static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint32_t>(high),
-                            static_cast<int>(part.corners.size()), c[(k + 2) % 3]});
+      if (low != high) half_edges[end[low]++] = {high, f, c[(k + 2) % 3]};
     }
-    part.corners.push_back(c);
   }
-  std::sort(half_edges.begin(), half_edges.end(),
-            [](const HalfEdge& x, const HalfEdge& y) { return x.ends != y.ends ? x.ends < y.ends : x.face < y.face; });
+  for (int v = 0; v < part.size(); ++v) {
+    std::sort(
+        half_edges.begin() + lower[v], half_edges.begin() + lower[v + 1],
+        [](const HalfEdge& x, const HalfEdge& y) { return x.high != y.high ? x.high < y.high : x.face < y.face; });
+  }
 
   struct Link {
     int a, b;
@@ -69,18 +77,25 @@ PartGraph part_graph(const Mesh& mesh, std::span<const int> faces) {
   };
   std::vector<Link> links;
   links.reserve(half_edges.size());
-  for (std::size_t i = 0, j; i < half_edges.size(); i = j) {
-    const int a = static_cast<int>(half_edges[i].ends >> 32), b = static_cast<int>(half_edges[i].ends & 0xffffffffu);
+  const auto add_edge = [&](int a, std::span<const HalfEdge> sides) {
+    const int b = sides.front().high;
     const Point pa = part.positions.row(a), pb = part.positions.row(b);
     links.push_back({a, b, (pa - pb).norm()});
-    for (j = i + 1; j < half_edges.size() && half_edges[j].ends == half_edges[i].ends; ++j) {
-      const HalfEdge &e = half_edges[j - 1], &next = half_edges[j];
+    for (std::size_t j = 1; j < sides.size(); ++j) {
+      const HalfEdge &e = sides[j - 1], &next = sides[j];
       if (e.face == next.face) continue;
       part.shared.push_back({e.face, next.face, a, b});
       if (e.opposite == next.opposite) continue;
       const auto diagonal =
           unfolded_diagonal(pa, pb, part.positions.row(e.opposite), part.positions.row(next.opposite));
       if (diagonal) links.push_back({e.opposite, next.opposite, *diagonal});
+    }
+  };
+  for (int v = 0; v < part.size(); ++v) {
+    for (int i = lower[v], j; i < lower[v + 1]; i = j) {
+      for (j = i + 1; j < lower[v + 1] && half_edges[j].high == half_edges[i].high; ++j) {
+      }
+      add_edge(v, std::span(half_edges).subspan(i, j - i));
     }
   }
   part.first.assign(part.vertices.size() + 1, 0);
@@ -156,6 +171,30 @@ double PathSearch::bounded_length(int a, int b, double at_most) {
     }
   }
   return std::numeric_limits<double>::infinity();
+}
+
+// Paths that lead towards b are tried first; one that is longer than need be is taken again where it gets shorter.
+bool PathSearch::has_path(int a, int b, double at_most) {
+  if (a == b) return true;
+  begin();
+  const Point goal = graph_.positions.row(b);
+  constexpr double kHaste = 2;  // of the straight way ahead, against the way behind
+  Queue queue;
+  relax(a, 0, -1);
+  queue.push({(graph_.positions.row(a) - goal).norm(), a});
+  while (!queue.empty()) {
+    const int v = queue.top().second;
+    queue.pop();
+    for (int i = graph_.first[v]; i < graph_.first[v + 1]; ++i) {
+      const auto [w, length] = graph_.steps[i];
+      const double distance = distance_[v] + length;
+      const double ahead = (graph_.positions.row(w) - goal).norm();
+      if (distance + ahead > at_most || !relax(w, distance, v)) continue;
+      if (w == b) return true;
+      queue.push({kHaste * ahead + distance, w});
+    }
+  }
+  return false;
 }
 
 void PathSearch::from(int source, std::span<const int> targets) {

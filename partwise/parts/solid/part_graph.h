@@ -53,6 +53,9 @@ class PathSearch {
   // that length can pass: d(a, v) + |v b| <= at_most.
   double bounded_length(int a, int b, double at_most);
 
+  // Whether bounded_length() is finite, sooner: any path of that length will do.
+  bool has_path(int a, int b, double at_most);
+
   // Distances and paths from `source` to each target: Dijkstra (1959) with buckets of distances in place of a heap. A
   // vertex may be reached again on a shorter way through its own bucket, and is then taken from it once more.
   void from(int source, std::span<const int> targets);

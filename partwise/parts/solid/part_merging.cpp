@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -29,6 +30,12 @@ bool encloses(const HullPart& a, const HullPart& b) {
   for (const auto& corner : b.hull.vertices.rowwise())
     if ((planes.leftCols<3>() * corner.transpose() - planes.col(3)).maxCoeff() > kOnPlane) return false;
   return true;
+}
+
+std::uint64_t hash(const std::vector<int>& faces) {  // FNV-1a
+  std::uint64_t h = 0xCBF29CE484222325u;
+  for (const int f : faces) h = (h ^ static_cast<std::uint64_t>(f)) * 0x100000001B3u;
+  return h;
 }
 
 Vertices stacked(const Vertices& a, const Vertices& b) {
@@ -92,10 +99,12 @@ double PartMerging::cost_of(const HullPart& a, const HullPart& b) const {
   return air + kGrowthPrice * std::max(0.0, hull.volume - a.volume - b.volume);
 }
 
-bool PartMerging::joined(const HullPart& a, const HullPart& b, HullPart& result) const {
+bool PartMerging::joined(const HullPart& a, const HullPart& b, HullPart& result) {
   HullPart merged;
   merged.faces.resize(a.faces.size() + b.faces.size());
   std::merge(a.faces.begin(), a.faces.end(), b.faces.begin(), b.faces.end(), merged.faces.begin());
+  const std::uint64_t key = hash(merged.faces);
+  if (refused_.count(key)) return false;
   if (const HullPart* outer = encloses(a, b) ? &a : encloses(b, a) ? &b : nullptr) {
     std::vector<int> faces = std::move(merged.faces);
     merged = *outer;
@@ -106,7 +115,10 @@ bool PartMerging::joined(const HullPart& a, const HullPart& b, HullPart& result)
     both.append(more.points, more.source);
     set_hull(merged, both, settings_.minimum_thickness);
   }
-  if (!accept_(merged)) return false;
+  if (!accept_(merged)) {
+    refused_.insert(key);
+    return false;
+  }
   result = std::move(merged);
   return true;
 }

@@ -6,6 +6,7 @@
 // for `valley` that no valley of the part is deep.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <set>
 #include <vector>
@@ -64,7 +65,7 @@ class PartMerging {
   };
 
   double cost_of(const HullPart& a, const HullPart& b) const;
-  bool joined(const HullPart& a, const HullPart& b, HullPart& result) const;  // false: not accepted
+  bool joined(const HullPart& a, const HullPart& b, HullPart& result);  // false: not accepted
   void replace(int part, HullPart body);
   std::vector<int> neighbours(int part) const;
   bool dissolve_part(int part);
@@ -75,9 +76,10 @@ class PartMerging {
   MergeSettings settings_;
   std::vector<HullPart> pieces_;
   std::vector<std::vector<int>> piece_neighbours_;
-  std::vector<int> part_of_;  // of each piece
-  std::vector<Part> parts_;   // those without pieces are gone
-  std::vector<int> covered_;  // how many hulls each air point is in
+  std::vector<int> part_of_;         // of each piece
+  std::vector<Part> parts_;          // those without pieces are gone
+  std::vector<int> covered_;         // how many hulls each air point is in
+  std::set<std::uint64_t> refused_;  // hashes of the faces of joins; that two agree would cost no more than a merge
 };
 
 }  // namespace partwise
