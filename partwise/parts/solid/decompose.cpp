@@ -10,6 +10,7 @@
 
 #include "partwise/base/error.h"
 #include "partwise/geometry/convex_hull.h"
+#include "partwise/geometry/principal_axes.h"
 #include "partwise/geometry/subdivide.h"
 #include "partwise/geometry/topology.h"
 #include "partwise/geometry/union_volume.h"
@@ -25,7 +26,7 @@ constexpr double kSmallestTolerance = 1e-3;    // of R: the octree of distances 
 constexpr double kLargestThickness = 1e-3;     // of R: what flat hulls are given, or a tenth of the tolerance if less
 constexpr double kSmallestCube = 1.0 / 32;     // of the tolerance: side of the smallest cubes of the octree
 constexpr double kCertainty = 1 - 1e-4;        // of the tolerance: room for distances in single precision
-constexpr double kMeasureAccuracy = 1.0 / 16;  // of the tolerance: of the concavity that is reported
+constexpr double kMeasureAccuracy = 1.0 / 8;  // of the tolerance: of the concavity that is reported
 constexpr double kLargestAir = 10;             // see largest_air(); of the measure valley
 constexpr int kSamples = 6000;                 // of the space in the convex hull
 constexpr double kCoarseEdge = 0.5;            // of the tolerance: longest edge of a mesh whose faces are cut inside
@@ -66,9 +67,18 @@ void check(const Mesh& mesh, const DecompositionSettings& settings, double radiu
     throw InputError("max_hull_vertices", "is below 4", "give 0 for no limit, or 4 and more");
 }
 
-// The mesh centred and scaled to a bounding sphere of radius 1, faces turned one way, and what is measured on it.
+// Rounded to multiples of 2^-34, so that the rounding that came with placing the mesh decides no ties: the grid is so
+// coarse that hardly a coordinate is rounded to another multiple, and a tenth of what vertices may be out of a hull.
+Vertices on_grid(const Vertices& vertices) {
+  constexpr double kPerUnit = 17179869184;
+  return (vertices * kPerUnit).array().round() / kPerUnit;
+}
+
+// The mesh centred, scaled to a bounding sphere of radius 1 and turned to its principal axes, so that the parts do not
+// depend on how it was placed; faces turned one way; and what is measured on it.
 struct Scene {
   Sphere sphere;
+  Eigen::Matrix3d axes;
   Mesh mesh;
   bool closed;
   SurfaceQuery surface;
@@ -77,7 +87,9 @@ struct Scene {
 
   Scene(const Mesh& input, const Sphere& bounds, double tolerance, double thickness)
       : sphere(bounds),
-        mesh(orient_consistently({(input.vertices.rowwise() - bounds.centre) / bounds.radius, input.faces})),
+        axes(principal_axes(input)),
+        mesh(orient_consistently(
+            {on_grid((input.vertices.rowwise() - bounds.centre) * axes.transpose() / bounds.radius), input.faces})),
         closed(is_watertight(mesh)),
         surface(mesh),
         space(sample_space(surface, closed, convex_hull(corners_of(mesh, all_faces()), thickness).mesh, kSamples)),
@@ -126,7 +138,8 @@ struct DeliveredHull {
 DeliveredHull delivered_hull(const Mesh& input, const Scene& scene, const HullPart& part, const HullPromise& promise) {
   DeliveredHull delivered{promise.shape(part.hull), {}};
   const Vertices& scaled = delivered.scaled.vertices;
-  delivered.hull = {(scaled * scene.sphere.radius).rowwise() + scene.sphere.centre, delivered.scaled.faces};
+  delivered.hull = {(scaled * scene.axes * scene.sphere.radius).rowwise() + scene.sphere.centre,
+                    delivered.scaled.faces};
   if (scaled.rows() < part.hull.vertices.rows()) return delivered;
   for (Eigen::Index v = 0; v < scaled.rows(); ++v) {
     const int source = part.source[static_cast<std::size_t>(v)];
