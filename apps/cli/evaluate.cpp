@@ -63,21 +63,20 @@ void evaluate_files(const Options& options, Run& run) {
   run.outputs.add_input("SEGMENTATION", options.segmentation);
   for (const std::string& reference : options.references) run.outputs.add_input("REFERENCE", reference);
 
-  const auto labels_of = [](const Mesh& mesh, const std::string& file) {
-    std::vector<int> labels = read_labels(file);
-    require_label_per_face(mesh, labels, file);
-    return labels;
+  const Mesh mesh = run.stage("read", [&] { return read_mesh(options.mesh); });
+  const auto labels_of = [&](const std::string& file) {
+    return run.stage("read", [&] {
+      std::vector<int> labels = read_labels(file);
+      require_label_per_face(mesh, labels, file);
+      return labels;
+    });
   };
-  const auto [mesh, segmentation] = run.stage("read", [&] {
-    Mesh read = read_mesh(options.mesh);
-    std::vector<int> labels = labels_of(read, options.segmentation);
-    return std::pair(std::move(read), std::move(labels));
-  });
+  const std::vector<int> segmentation = labels_of(options.segmentation);
   const SegmentationComparison comparison = run.stage(
       "compare", [&] { return naming_mesh(options.mesh, [&] { return SegmentationComparison(mesh, segmentation); }); });
   std::vector<SegmentationMeasures> measures;
   for (const std::string& file : options.references) {
-    const std::vector<int> reference = run.stage("read", [&] { return labels_of(mesh, file); });
+    const std::vector<int> reference = labels_of(file);
     measures.push_back(run.stage("compare", [&] { return comparison.against(reference); }));
   }
   report(options, measures, run);

@@ -22,10 +22,11 @@ using Labels = std::vector<int>;
 // vertices, row by row.
 Mesh grid(int columns, int rows) {
   Mesh mesh;
-  mesh.vertices.resize((columns + 1) * (rows + 1), 3);
+  const int corners = (columns + 1) * (rows + 1), faces = 2 * columns * rows;
+  mesh.vertices.resize(corners, 3);
   for (int y = 0; y <= rows; ++y)
     for (int x = 0; x <= columns; ++x) mesh.vertices.row(y * (columns + 1) + x) = Point(x, y, 0);
-  mesh.faces.resize(2 * columns * rows, 3);
+  mesh.faces.resize(faces, 3);
   for (int y = 0; y < rows; ++y)
     for (int x = 0; x < columns; ++x) {
       const int corner = y * (columns + 1) + x, square = y * columns + x;
