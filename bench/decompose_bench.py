@@ -13,7 +13,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from harness import experiments, history, meshes, ridge_noise, summary  # noqa: E402
 from harness.decompose import Settings, decompose  # noqa: E402
-from harness.rand_error import People  # noqa: E402
+from harness.people import People  # noqa: E402
 
 BIN = Path(__file__).resolve().parent.parent / "build" / "release" / "bin"
 
@@ -26,6 +26,7 @@ def parse(words):
     add("--checker", type=Path, default=BIN / "decompose_check", help="the judge")
     add("--hacd-program", type=Path, default=BIN / "hacd_peer", help="the peer")
     add("--noise-program", type=Path, default=BIN / "ridge_noise", help="that --ridge-noise asks")
+    add("--evaluator", type=Path, default=BIN / "partwise", help="whose verb evaluate gives the Rand error")
     add("--measure", choices=["hull", "valley"], default="hull")
     add("--tolerance", type=float, default=0.1, help="share of the bounding-sphere radius")
     add("--max-hull-vertices", type=int, default=0, help="0: no limit")
@@ -60,22 +61,12 @@ def parse(words):
         needed.append(options.checker)
     if options.hacd:
         needed.append(options.hacd_program)
+    if options.seg_dir:
+        needed.append(options.evaluator)
     for program in needed:
         if not os.access(program, os.X_OK):
             parser.error(f"{program} is not there: build it, or name another")
     return options
-
-
-def chosen_meshes(options, category):
-    paths = meshes.find(options.folder)
-    if options.only == "first-of-category":
-        paths = meshes.first_of_each(paths, category)
-    elif options.only:
-        names = options.only.split(",")
-        paths = [path for path in paths if path.stem in names]
-    if not paths:
-        sys.exit(f"decompose_bench: no meshes chosen in {options.folder}")
-    return paths
 
 
 def run_table(options, settings, paths, category, people, jobs):
@@ -106,11 +97,13 @@ def run_table(options, settings, paths, category, people, jobs):
 def main(words):
     options = parse(words)
     category = meshes.princeton_category if options.category_of == "psb" else meshes.folder_category
-    paths = chosen_meshes(options, category)
+    paths = meshes.chosen(options.folder, options.only, category)
+    if not paths:
+        sys.exit(f"decompose_bench: no meshes chosen in {options.folder}")
     judged = options.check or options.remove or options.hacd
     settings = Settings(options.program, options.checker if judged else None, options.tolerance, options.measure,
                         options.max_hull_vertices, options.cup_repair, options.threads, options.time_limit, options.samples)
-    people = People(options.seg_dir) if options.seg_dir else None
+    people = People(options.seg_dir, options.evaluator) if options.seg_dir else None
     result = {"meshes": len(paths), "settings": settings.described()}
     with ThreadPoolExecutor(options.jobs) as pool:
         jobs = pool.map

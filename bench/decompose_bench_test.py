@@ -1,5 +1,5 @@
 """The harness on small answers known beforehand; and from end to end with a program of a few lines in place of partwise,
-which puts a box around every mesh: decompose_bench_test.py CHECKER RIDGE_NOISE [HACD]"""
+which puts a box around every mesh: decompose_bench_test.py CHECKER RIDGE_NOISE PARTWISE [HACD]"""
 
 import io
 import json
@@ -16,9 +16,8 @@ import decompose_bench
 from harness import meshes, process, summary
 from harness.decompose import Settings, decompose
 from harness.dissertation import AVERAGE, TABLE_2_3
-from harness.rand_error import People, rand_error
 
-CHECKER = RIDGE_NOISE = HACD = ""
+CHECKER = RIDGE_NOISE = PARTWISE = HACD = ""
 CORNERS = [(x, y, z) for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)]
 SIDES = [(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4),
          (1, 5, 7), (1, 7, 3)]
@@ -47,35 +46,6 @@ BOXER = textwrap.dedent("""\
         json.dump({{"parts": 1, "tolerance": 0.1, "concavity": 0, "volume_ratio": {ratio}, "watertight": True,
                    "radius": math.sqrt(3) / 2, "seconds": {{}}}}, out)
     """)
-
-
-class RandError(unittest.TestCase):
-    def test_by_hand(self):
-        self.assertEqual(rand_error([0, 0, 1, 1], [5, 5, 2, 2]), 0)
-        self.assertEqual(rand_error([0, 0, 0], [0, 1, 2]), 1)
-        # Six pairs; (0, 1) and (2, 3) are together in the first only, (1, 2) in the second only.
-        self.assertEqual(rand_error([0, 0, 1, 1], [0, 1, 1, 2]), 3 / 6)
-
-    def test_against_all_pairs(self):
-        a = [(7 * k * k + 3) % 5 for k in range(60)]
-        b = [(k * k + k) % 4 for k in range(60)]
-        pairs = [(i, j) for i in range(60) for j in range(i)]
-        apart = sum((a[i] == a[j]) != (b[i] == b[j]) for i, j in pairs)
-        self.assertAlmostEqual(rand_error(a, b), apart / len(pairs), 14)
-
-    def test_lengths_differ(self):
-        with self.assertRaises(ValueError):
-            rand_error([0, 1], [0, 1, 1])
-
-    def test_people(self):
-        with tempfile.TemporaryDirectory() as folder:
-            (Path(folder) / "7").mkdir()
-            (Path(folder) / "7" / "7_0.seg").write_text("0\n0\n1\n1\n")
-            (Path(folder) / "7" / "7_1.seg").write_text("0\n1\n1\n2\n")
-            people = People(folder)
-            self.assertEqual(people.error(Path("7.off"), [3, 3, 4, 4]), 0.25)
-            self.assertEqual(people.among_themselves(Path("7.off")), 0.5)
-            self.assertIsNone(people.error(Path("8.off"), [3, 3]))
 
 
 class Meshes(unittest.TestCase):
@@ -270,7 +240,8 @@ class EndToEnd(unittest.TestCase):
         meshes.write_off(self.folder / "boxes" / "unseen.off", CORNERS, SIDES)  # that nobody has segmented
         for k, last in enumerate((0, 1)):
             (people / f"cube_{k}.seg").write_text("0\n" * 11 + f"{last}\n")
-        printed = self.bench("--fig-2-35", "--seg-dir", str(people.parent), "--tolerances", "0.1")
+        printed = self.bench("--fig-2-35", "--seg-dir", str(people.parent), "--tolerances", "0.1",
+                             "--evaluator", PARTWISE)
         # One label: all pairs agree with the first, all but 11 of 66 with the second.
         row = next(line.split() for line in printed.splitlines() if line.startswith("boxes"))
         self.assertEqual(row[1:6], ["0.167"] + ["0.083"] * 4)
@@ -295,5 +266,6 @@ class EndToEnd(unittest.TestCase):
 if __name__ == "__main__":
     CHECKER = sys.argv.pop(1)
     RIDGE_NOISE = sys.argv.pop(1)
+    PARTWISE = sys.argv.pop(1)
     HACD = sys.argv.pop(1) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else ""
     unittest.main()

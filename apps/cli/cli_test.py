@@ -198,6 +198,103 @@ class Results(CommandLine):
         self.assertEqual(*files)
 
 
+class Evaluate(CommandLine):
+    fields = "rand_error cut_discrepancy hamming hamming_missing hamming_false consistency_global consistency_local".split()
+
+    def setUp(self):
+        """A strip of four unit squares, each cut in two; labels by square."""
+        super().setUp()
+        lines = ["OFF", "10 8 0"] + [f"{x} {y} 0" for x in range(5) for y in range(2)]
+        for a in range(0, 8, 2):
+            lines += [f"3 {a} {a + 2} {a + 3}", f"3 {a} {a + 3} {a + 1}"]
+        (self.folder / "strip.off").write_text("\n".join(lines) + "\n")
+        for name, squares in (("left", "0111"), ("half", "0011"), ("named", "7755"), ("whole", "0000"), ("four", "0123")):
+            (self.folder / f"{name}.seg").write_text("".join(f"{label}\n" * 2 for label in squares))
+        self.files = sorted(path.name for path in self.folder.iterdir())
+
+    def evaluate(self, *arguments):
+        return self.run_program("evaluate", "strip.off", *arguments)
+
+    def measured(self, *segmentations):
+        result = self.evaluate(*segmentations, "--json", "-")
+        self.assert_done(result)
+        self.assert_files(*self.files)
+        return json.loads(result.stdout)
+
+    def test_equal_segmentations_are_at_0(self):
+        for pair in (("half.seg", "half.seg"), ("half.seg", "named.seg"), ("whole.seg", "whole.seg")):
+            report = self.measured(*pair)
+            self.assertEqual([report[field] for field in self.fields], [0] * 7)
+
+    def test_one_border_moved_by_a_square(self):
+        report = self.measured("left.seg", "half.seg")
+        self.assertEqual(list(report), self.fields + ["references", "by_reference", "seconds"])
+        self.assertEqual(report["references"], 1)
+        self.assertAlmostEqual(report["rand_error"], 2 * 6 / 28, 12)
+        for field in ("hamming", "hamming_missing", "hamming_false"):
+            self.assertAlmostEqual(report[field], 0.25, 12)
+        # Shares outside, by square: 0, 2/3, 1/3, 1/3 and 1/2, 1/2, 0, 0.
+        self.assertAlmostEqual(report["consistency_global"], 1 / 4, 12)
+        self.assertAlmostEqual(report["consistency_local"], 1 / 8, 12)
+        centroids = [(x + a / 3, b / 3) for x in range(4) for a, b in ((2, 1), (1, 2))]
+        radius = sum(((x - 2) ** 2 + (y - 0.5) ** 2) ** 0.5 for x, y in centroids) / 8
+        self.assertAlmostEqual(report["cut_discrepancy"], 1 / radius, 12)
+        for stage in ("read", "compare", "total"):
+            self.assertGreaterEqual(report["seconds"][stage], 0)
+
+    def test_means_over_references(self):
+        report = self.measured("half.seg", "left.seg", "half.seg", "four.seg")
+        alone = [self.measured("half.seg", name) for name in ("left.seg", "half.seg", "four.seg")]
+        self.assertEqual(report["references"], 3)
+        self.assertEqual([each.pop("reference") for each in report["by_reference"]], ["left.seg", "half.seg", "four.seg"])
+        self.assertEqual(report["by_reference"], [{field: one[field] for field in self.fields} for one in alone])
+        for field in self.fields:
+            self.assertAlmostEqual(report[field], sum(one[field] for one in alone) / 3, 12)
+        self.assertGreater(report["by_reference"][2]["hamming_false"], 0)
+        self.assertEqual(report["by_reference"][2]["hamming_missing"], 0)
+
+    def test_a_discrepancy_of_no_cuts_is_null(self):
+        report = self.measured("half.seg", "whole.seg", "left.seg")
+        self.assertIsNone(report["by_reference"][0]["cut_discrepancy"])
+        self.assertEqual(report["cut_discrepancy"], report["by_reference"][1]["cut_discrepancy"])
+        self.assertIsNone(self.measured("half.seg", "whole.seg")["cut_discrepancy"])
+        self.assertIn("cut discrepancy undefined", self.evaluate("half.seg", "whole.seg").stdout)
+
+    def test_summary_and_report(self):
+        result = self.evaluate("left.seg", "half.seg", "four.seg", "--json", "a.json", "--threads", "1", "--seed", "3")
+        self.assert_done(result)
+        self.assertRegex(result.stdout, r"^left\.seg against 2 references: Rand error 0\.\d+, .*\n$")
+        self.assertEqual(json.loads((self.folder / "a.json").read_text())["references"], 2)
+        self.assertEqual(self.evaluate("left.seg", "half.seg", "--quiet").stdout, "")
+
+    def test_labels_that_do_not_fit(self):
+        (self.folder / "short.seg").write_text("0\n1\n")
+        (self.folder / "words.seg").write_text("0\nleg\n")
+        for pair in (("short.seg", "half.seg"), ("half.seg", "half.seg", "short.seg")):
+            result = self.evaluate(*pair, "--json", "a.json")
+            self.assert_refused(result, 1, "short.seg: 2 labels for a mesh of 8 faces; give one label a face")
+        self.assert_refused(self.evaluate("half.seg", "words.seg"), 1, "words.seg:2")
+        self.assert_refused(self.evaluate("half.seg", "none.seg"), 1, "none.seg")
+        (self.folder / "flat.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n")
+        (self.folder / "one.seg").write_text("0\n")
+        result = self.run_program("evaluate", "flat.off", "one.seg", "one.seg")
+        self.assert_refused(result, 1, "flat.off: its area is 0; give a mesh")
+        self.assertFalse((self.folder / "a.json").exists())
+
+    def test_wrong_usage(self):
+        for arguments, word in (([], "SEGMENTATION"), (["half.seg"], "REFERENCE"), (["half.seg", "half.seg", "--k"], "--k"),
+                                (["half.seg", "left.seg", "--json", "left.seg"], "same file")):
+            self.assert_refused(self.evaluate(*arguments), 2, word, "--help")
+        self.assert_files(*self.files)
+
+    def test_help_teaches_with_an_example(self):
+        result = self.run_program("evaluate", "--help")
+        self.assert_done(result)
+        self.assertIn("Example:\n", result.stdout)
+        for word in ("MESH", "SEGMENTATION", "REFERENCE", "rand_error", "hamming_missing", "null", "by_reference"):
+            self.assertIn(word, result.stdout)
+
+
 class Outputs(CommandLine):
     def test_bad_places_are_told_before_the_work(self):
         (self.folder / "a_folder").mkdir()

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <string_view>
 
+#include "mesh_errors.h"
 #include "options.h"
 #include "part_meshes.h"
 #include "partwise/base/error.h"
@@ -95,25 +95,12 @@ void report(const Options& options, const Decomposition& result, Run& run) {
                             unit, measure_name(options.settings.measure), ratio, written);
 }
 
-// The library calls what it is given "mesh"; here it is a file.
-Decomposition decompose_file(const Options& options, const Mesh& mesh, const Progress& progress) {
-  try {
-    return decompose(mesh, options.settings, progress);
-  } catch (const InputError& error) {
-    constexpr std::string_view place = "mesh: ", remedy = "; ";
-    const std::string_view text = error.what();
-    const std::size_t end = text.find(remedy);
-    if (!text.starts_with(place) || end == std::string_view::npos) throw;
-    throw InputError(options.mesh, std::string(text.substr(place.size(), end - place.size())),
-                     std::string(text.substr(end + remedy.size())));
-  }
-}
-
 void decompose_files(const Options& options, Run& run) {
   check_usage(options.settings);
   announce_outputs(options, run.outputs);
   const Mesh mesh = run.stage("read", [&] { return read_mesh(options.mesh); });
-  const Decomposition result = decompose_file(options, mesh, run.progress);
+  const Decomposition result =
+      naming_mesh(options.mesh, [&] { return decompose(mesh, options.settings, run.progress); });
   for (const auto& [stage, seconds] : result.seconds) run.seconds[stage] = seconds;
   check_promise(options, result);
   run.stage("write", [&] { write_outputs(options, mesh, result, run.outputs); });

@@ -72,6 +72,7 @@ Outputs::~Outputs() {
 
 void Outputs::refuse_same_file(const Entry& entry) const {
   for (const Entry& other : entries_) {
+    if (other.is_input && entry.is_input) continue;  // one file may be read for two purposes
     std::error_code missing;
     if (other.final != entry.final && !fs::equivalent(other.final, entry.final, missing)) continue;
     throw UsageError(fmt::format("{} and {} name the same file, {}", other.option, entry.option, entry.path.string()));

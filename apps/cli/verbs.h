@@ -8,7 +8,8 @@
 namespace partwise::cli {
 
 extern const Verb decompose_verb;
+extern const Verb evaluate_verb;
 
-inline constexpr std::array verbs = {&decompose_verb};
+inline constexpr std::array verbs = {&decompose_verb, &evaluate_verb};
 
 }  // namespace partwise::cli

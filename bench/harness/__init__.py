@@ -1,3 +1,3 @@
-"""What the benchmarks share: running a program and its clock, meshes, Rand error, tables, the history of results.
+"""What the benchmarks share: running a program and its clock, meshes, people's segmentations, tables, the history of results.
 
 Standard library only."""

@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from . import meshes, process
-from .rand_error import read_labels
 
 
 @dataclass
@@ -117,7 +116,7 @@ def decompose(settings, mesh, people=None):
         report = json.loads(files.report.read_text())
         result.parts, result.ratio = report["parts"], report["volume_ratio"]
         if people:
-            result.rand = people.error(mesh, read_labels(files.labels))
+            result.rand = people.error(mesh, files.labels)
         if settings.checker:
             _judge(settings, files, report, result)
         return result

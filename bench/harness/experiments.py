@@ -8,7 +8,6 @@ from pathlib import Path
 
 from . import meshes, process
 from .decompose import Files, decompose, judge, run_program
-from .rand_error import read_labels
 from .table import cell, largest, mean, table
 
 
@@ -112,13 +111,13 @@ def figure_2_35(settings, paths, category, people, tolerances, jobs):
 
     def one(path):
         errors, unfinished = {}, 0
-        for tolerance in tolerances if people.of(path) else []:
+        for tolerance in tolerances if people.files(path) else []:
             with tempfile.TemporaryDirectory() as folder:
                 files = Files(Path(folder))
                 if run_program(replace(settings, tolerance=tolerance), path, files).trouble:
                     unfinished += 1
                 else:
-                    errors[tolerance] = people.error(path, read_labels(files.labels))
+                    errors[tolerance] = people.error(path, files.labels)
         return errors, people.among_themselves(path), unfinished
 
     groups, unfinished = {}, 0

@@ -33,6 +33,16 @@ def first_of_each(paths, category):
     return list(first.values())
 
 
+def chosen(folder, only, category):
+    """Those of the folder that `only` names: "first-of-category", or names without ending, separated by commas; all for
+    None."""
+    paths = find(folder)
+    if only == "first-of-category":
+        return first_of_each(paths, category)
+    names = only.split(",") if only else None
+    return [path for path in paths if names is None or path.stem in names]
+
+
 def read_off(path):
     """Vertices and triangles of an OFF file."""
     words = (word for line in Path(path).read_text().splitlines() for word in line.split("#")[0].split())
