@@ -11,6 +11,7 @@ extern "C" {
 #include <array>
 #include <cstdio>
 #include <memory>
+#include <string>
 
 #include "partwise/base/error.h"
 
@@ -44,8 +45,12 @@ Vertices thicken(const Vertices& points, double minimum_thickness) {
   return thick;
 }
 
+// Facets that are not triangles are cut into such. Where many points lie nearly in a plane, Qhull may refuse to merge
+// them into one facet; it always succeeds when it may move the points by some rounding errors.
+constexpr const char *kTriangulated = "Qt", *kJoggled = "QJ";
+
 // Facets of the hull as corners into `points`, counter-clockwise from outside; empty when Qhull finds them flat.
-std::vector<std::array<int, 3>> qhull_facets(const Vertices& points) {
+std::vector<std::array<int, 3>> qhull_facets(const Vertices& points, const char* options) {
   struct Session {
     qhT qh;
     Session() { qh_zero(&qh, nullptr); }
@@ -58,9 +63,9 @@ std::vector<std::array<int, 3>> qhull_facets(const Vertices& points) {
   const auto session = std::make_unique<Session>();
   qhT* qh = &session->qh;
   static const std::unique_ptr<FILE, int (*)(FILE*)> silence(std::fopen("/dev/null", "w"), &std::fclose);
-  char options[] = "qhull Qt";
+  std::string command = std::string("qhull ") + options;
   const int failed = qh_new_qhull(qh, 3, static_cast<int>(points.rows()), const_cast<double*>(points.data()), False,
-                                  options, nullptr, silence.get());
+                                  command.data(), nullptr, silence.get());
   std::vector<std::array<int, 3>> facets;
   if (failed) return facets;
   facetT* facet;
@@ -89,13 +94,14 @@ ConvexHull convex_hull(const Vertices& points, double minimum_thickness) {
   std::vector<std::array<int, 3>> facets;
   if (points.rows() >= 4) {
     const Eigen::Matrix3d axes = principal_axes(points);
-    if (extent(points, axes.col(0)) >= minimum_thickness) facets = qhull_facets(points);
+    if (extent(points, axes.col(0)) >= minimum_thickness) facets = qhull_facets(points, kTriangulated);
   }
   Vertices thick;
   hull.thickened = facets.empty();
   if (hull.thickened) {
     thick = thicken(points, minimum_thickness);
-    facets = qhull_facets(thick);
+    facets = qhull_facets(thick, kTriangulated);
+    if (facets.empty()) facets = qhull_facets(thick, kJoggled);
     PARTWISE_CHECK(facets.size(), >=, 4u);
   }
   const Vertices& corners = hull.thickened ? thick : points;

@@ -1,6 +1,5 @@
 #include "partwise/geometry/surface_query.h"
 
-#include <embree3/rtcore.h>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <limits>
 
 #include "partwise/base/error.h"
+#include "partwise/geometry/ray_scene.h"
 #include "partwise/geometry/topology.h"
 
 namespace partwise {
@@ -67,19 +67,13 @@ std::array<Eigen::Vector3f, kOpenDirections> directions() {
 }  // namespace
 
 struct SurfaceQuery::Scene {
-  RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
+  std::unique_ptr<RayScene> rays;
   Vertices vertices;  // centred and scaled to about [-1, 1]
   Faces faces;
   Point centre;
   double scale = 1;  // model units a unit of the scene
   bool is_closed = false;
   std::array<Eigen::Vector3f, kOpenDirections> directions;
-
-  ~Scene() {
-    if (scene) rtcReleaseScene(scene);
-    if (device) rtcReleaseDevice(device);
-  }
 };
 
 SurfaceQuery::SurfaceQuery(const Mesh& mesh) : scene_(std::make_unique<Scene>()) {
@@ -99,22 +93,8 @@ SurfaceQuery::SurfaceQuery(const Mesh& mesh) : scene_(std::make_unique<Scene>())
   s.vertices = (mesh.vertices.rowwise() - s.centre) / s.scale;
   s.directions = directions();
 
-  s.device = rtcNewDevice("threads=1");  // One thread builds the hierarchy, so that it is the same one each time.
-  s.scene = rtcNewScene(s.device);
-  rtcSetSceneFlags(s.scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
-  RTCGeometry geometry = rtcNewGeometry(s.device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* vertex =
-      static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                  3 * sizeof(float), static_cast<std::size_t>(s.vertices.rows())));
-  for (Eigen::Index i = 0; i < s.vertices.size(); ++i) vertex[i] = static_cast<float>(s.vertices.data()[i]);
-  auto* index =
-      static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                     3 * sizeof(unsigned), static_cast<std::size_t>(s.faces.rows())));
-  for (Eigen::Index i = 0; i < s.faces.size(); ++i) index[i] = static_cast<unsigned>(s.faces.data()[i]);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(s.scene, geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(s.scene);
+  s.rays =
+      std::make_unique<RayScene>(s.vertices, s.faces, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
 }
 
 SurfaceQuery::~SurfaceQuery() = default;
@@ -141,7 +121,7 @@ double SurfaceQuery::distance(const Point& p, double at_most) const {
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   rtcPointQuery(
-      s.scene, &query, &context,
+      s.rays->scene(), &query, &context,
       [](RTCPointQueryFunctionArguments* args) {
         Nearest& best = *static_cast<Nearest*>(args->userPtr);
         const auto face = best.scene->faces.row(args->primID);
@@ -168,7 +148,7 @@ SurfaceQuery::Hit SurfaceQuery::first_hit(const Point& p, const Point& direction
   query.ray.tnear = static_cast<float>(from / s.scale), query.ray.tfar = std::numeric_limits<float>::infinity();
   query.ray.mask = 0xffffffffu, query.ray.flags = 0, query.ray.time = 0, query.ray.id = 0;
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(s.scene, &context, &query);
+  rtcIntersect1(s.rays->scene(), &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
   return {static_cast<int>(query.hit.primID), static_cast<double>(query.ray.tfar) * s.scale};
 }
@@ -196,7 +176,7 @@ double SurfaceQuery::winding_number(const Point& p) const {
     ray.dir_x = direction.x(), ray.dir_y = direction.y(), ray.dir_z = direction.z();
     ray.tnear = 0, ray.tfar = std::numeric_limits<float>::infinity();
     ray.mask = 0xffffffffu, ray.flags = 0, ray.time = 0, ray.id = 0;
-    rtcOccluded1(s.scene, &crossings.context, &ray);
+    rtcOccluded1(s.rays->scene(), &crossings.context, &ray);
     return crossings.sum;
   };
   if (s.is_closed) {

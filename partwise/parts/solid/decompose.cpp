@@ -22,15 +22,15 @@
 namespace partwise {
 namespace {
 
-constexpr double kSmallestTolerance = 1e-3;    // of R: the octree of distances would not end
-constexpr double kLargestThickness = 1e-3;     // of R: what flat hulls are given, or a tenth of the tolerance if less
-constexpr double kSmallestCube = 1.0 / 32;     // of the tolerance: side of the smallest cubes of the octree
-constexpr double kCertainty = 1 - 1e-4;        // of the tolerance: room for distances in single precision
+constexpr double kSmallestTolerance = 1e-3;   // of R: the octree of distances would not end
+constexpr double kLargestThickness = 1e-3;    // of R: what flat hulls are given, or a tenth of the tolerance if less
+constexpr double kSmallestCube = 1.0 / 32;    // of the tolerance: side of the smallest cubes of the octree
+constexpr double kCertainty = 1 - 1e-4;       // of the tolerance: room for distances in single precision
 constexpr double kMeasureAccuracy = 1.0 / 8;  // of the tolerance: of the concavity that is reported
-constexpr double kLargestAir = 10;             // see largest_air(); of the measure valley
-constexpr int kSamples = 6000;                 // of the space in the convex hull
-constexpr double kCoarseEdge = 0.5;            // of the tolerance: longest edge of a mesh whose faces are cut inside
-constexpr int kCoarseFaces = 5000;             // meshes with more faces are not cut inside
+constexpr double kLargestAir = 10;            // see largest_air(); of the measure valley
+constexpr int kSamples = 6000;                // of the space in the convex hull
+constexpr double kCoarseEdge = 0.5;           // of the tolerance: longest edge of a mesh whose faces are cut inside
+constexpr int kCoarseFaces = 5000;            // meshes with more faces are not cut inside
 constexpr int kMostFacesCut = 200000;
 
 class Stopwatch {
@@ -67,10 +67,10 @@ void check(const Mesh& mesh, const DecompositionSettings& settings, double radiu
     throw InputError("max_hull_vertices", "is below 4", "give 0 for no limit, or 4 and more");
 }
 
-// Rounded to multiples of 2^-34, so that the rounding that came with placing the mesh decides no ties: the grid is so
-// coarse that hardly a coordinate is rounded to another multiple, and a tenth of what vertices may be out of a hull.
+// Rounded to multiples of 2^-38, so that the rounding that came with placing the mesh decides no ties: the grid is so
+// coarse that few coordinates are rounded to another multiple, and far below what vertices may be out of a hull.
 Vertices on_grid(const Vertices& vertices) {
-  constexpr double kPerUnit = 17179869184;
+  constexpr double kPerUnit = 274877906944;
   return (vertices * kPerUnit).array().round() / kPerUnit;
 }
 
@@ -88,12 +88,15 @@ struct Scene {
   Scene(const Mesh& input, const Sphere& bounds, double tolerance, double thickness)
       : sphere(bounds),
         axes(principal_axes(input)),
-        mesh(orient_consistently(
-            {on_grid((input.vertices.rowwise() - bounds.centre) * axes.transpose() / bounds.radius), input.faces})),
+        mesh(orient_consistently({on_grid(placed(input.vertices)), input.faces})),
         closed(is_watertight(mesh)),
         surface(mesh),
         space(sample_space(surface, closed, convex_hull(corners_of(mesh, all_faces()), thickness).mesh, kSamples)),
         outside(surface, closed, {Point::Zero(), 1.0}, kSmallestCube * tolerance) {}
+
+  Vertices placed(const Vertices& vertices) const {
+    return (vertices.rowwise() - sphere.centre) * axes.transpose() / sphere.radius;
+  }
 
   std::vector<int> all_faces() const {
     std::vector<int> faces(static_cast<std::size_t>(mesh.faces.rows()));
@@ -129,22 +132,31 @@ std::vector<HullPart> valley_parts(const Scene& scene, double tolerance, const D
   return parts;
 }
 
-// The hull of a part as delivered, of the scaled mesh and in model units. It is made from the scaled vertices, the very
-// ones that the promise was tested on; where it is not simplified, its vertices in model units are those of the input.
+// The hull of a part as delivered, of the scaled mesh, which the promise was tested on, and in model units: there it is
+// made anew from the vertices of the input, unless it was simplified.
 struct DeliveredHull {
   Mesh scaled, hull;
 };
 
-DeliveredHull delivered_hull(const Mesh& input, const Scene& scene, const HullPart& part, const HullPromise& promise) {
+DeliveredHull delivered_hull(const Mesh& input, const Scene& scene, const HullPart& part, const HullPromise& promise,
+                             double thickness) {
   DeliveredHull delivered{promise.shape(part.hull), {}};
-  const Vertices& scaled = delivered.scaled.vertices;
-  delivered.hull = {(scaled * scene.axes * scene.sphere.radius).rowwise() + scene.sphere.centre,
-                    delivered.scaled.faces};
-  if (scaled.rows() < part.hull.vertices.rows()) return delivered;
-  for (Eigen::Index v = 0; v < scaled.rows(); ++v) {
-    const int source = part.source[static_cast<std::size_t>(v)];
-    if (source >= 0 && scaled.row(v) == scene.mesh.vertices.row(source))
-      delivered.hull.vertices.row(v) = input.vertices.row(source);
+  const auto in_model_units = [&](const Mesh& scaled) -> Mesh {
+    return {(scaled.vertices * scene.axes * scene.sphere.radius).rowwise() + scene.sphere.centre, scaled.faces};
+  };
+  if (delivered.scaled.vertices.rows() < part.hull.vertices.rows()) {
+    delivered.hull = in_model_units(delivered.scaled);
+    return delivered;
+  }
+  Corners corners = exact_corners(scene.mesh, part);
+  for (std::size_t i = 0; i < corners.source.size(); ++i)
+    if (corners.source[i] >= 0)
+      corners.points.row(static_cast<Eigen::Index>(i)) = scene.placed(input.vertices.row(corners.source[i]));
+  const ConvexHull hull = convex_hull(corners.points, thickness);
+  delivered.hull = in_model_units(hull.mesh);
+  for (Eigen::Index v = 0; v < hull.mesh.vertices.rows() && !hull.thickened; ++v) {
+    const int source = corners.source[static_cast<std::size_t>(hull.source[static_cast<std::size_t>(v)])];
+    if (source >= 0) delivered.hull.vertices.row(v) = input.vertices.row(source);
   }
   return delivered;
 }
@@ -202,7 +214,7 @@ Result run(const Mesh& input, Scene& scene, double tolerance, const Decompositio
   }
   result.hulls = watch.time("hulls", [&] {
     std::vector<DeliveredHull> hulls;
-    for (const HullPart& part : result.parts) hulls.push_back(delivered_hull(input, scene, part, promise));
+    for (const HullPart& part : result.parts) hulls.push_back(delivered_hull(input, scene, part, promise, thickness));
     return hulls;
   });
   if (settings.measure == ConcavityMeasure::hull)
