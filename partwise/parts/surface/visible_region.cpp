@@ -7,16 +7,16 @@
 namespace partwise {
 namespace {
 
-constexpr double kInPlane = 1e-7;  // of R: so near to a face's plane counts as in it
+constexpr float kInPlane = 1e-6f;  // of R: so near to a face's plane counts as in it, and single precision tells it
 
-Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> face_planes(const Mesh& mesh) {
-  Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> planes(mesh.faces.rows(), 4);
+Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor> face_planes(const Mesh& mesh) {
+  Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor> planes(mesh.faces.rows(), 4);
   for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
     const Point a = mesh.vertices.row(mesh.faces(f, 0));
     const Point across = (mesh.vertices.row(mesh.faces(f, 1)) - a).cross(mesh.vertices.row(mesh.faces(f, 2)) - a);
     const double length = across.norm();
     const Point normal = length > 0 ? Point(across / length) : Point(Point::Zero());
-    planes.row(f) << normal, normal.dot(a) + kInPlane;
+    planes.row(f) << normal.cast<float>(), static_cast<float>(normal.dot(a)) + kInPlane;
   }
   return planes;
 }
@@ -26,13 +26,14 @@ Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> face_planes(const Mesh
 VisibleRegion::VisibleRegion(const SurfaceGraph& graph, const InnerVisibility& visibility)
     : graph_(graph),
       visibility_(visibility),
-      planes_(face_planes(graph.mesh)),
+      planes_(face_planes(graph.mesh)(graph.face_list, Eigen::all)),
       state_(static_cast<std::size_t>(graph.size())),
       traced_(static_cast<std::size_t>(graph.mesh.faces.rows()), 0),
       parent_(static_cast<std::size_t>(graph.size())) {}
 
 void VisibleRegion::find(int viewpoint, VisibilityMethod method, const std::vector<std::pair<int, int>>* hints) {
   viewpoint_ = viewpoint;
+  eye_ = graph_.mesh.vertices.row(viewpoint).cast<float>();
   std::fill(state_.begin(), state_.end(), std::uint16_t{0});
   for (const int face : traced_faces_) traced_[face] = 0;
   traced_faces_.clear();
@@ -58,12 +59,11 @@ void VisibleRegion::find(int viewpoint, VisibilityMethod method, const std::vect
 
 bool VisibleRegion::positive(int v) {
   if (is(v, kPositive | kNegative)) return is(v, kPositive);
-  const auto eye = graph_.mesh.vertices.row(viewpoint_);
-  const std::span<const int> faces = graph_.faces(v);
-  const bool any = std::any_of(faces.begin(), faces.end(), [&](int f) {
-    const double* plane = planes_.data() + 4 * static_cast<std::ptrdiff_t>(f);
-    return plane[0] * eye[0] + plane[1] * eye[1] + plane[2] * eye[2] <= plane[3];
-  });
+  bool any = false;
+  for (int i = graph_.first_face[v]; i < graph_.first_face[v + 1] && !any; ++i) {
+    const float* plane = planes_.data() + 4 * static_cast<std::ptrdiff_t>(i);
+    any = plane[0] * eye_[0] + plane[1] * eye_[1] + plane[2] * eye_[2] <= plane[3];
+  }
   set(v, any ? kPositive : kNegative);
   return any;
 }

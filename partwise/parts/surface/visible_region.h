@@ -17,11 +17,10 @@
 #include <vector>
 
 #include "partwise/geometry/inner_visibility.h"
+#include "partwise/parts/surface/continuous_visibility.h"
 #include "partwise/parts/surface/surface_graph.h"
 
 namespace partwise {
-
-enum class VisibilityMethod { filter, bfs, bfs_plain, filter_printed };
 
 // One viewpoint at a time; keeps its arrays from one to the next. One a thread.
 class VisibleRegion {
@@ -78,12 +77,13 @@ class VisibleRegion {
 
   const SurfaceGraph& graph_;
   const InnerVisibility& visibility_;
-  Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> planes_;  // of faces: n . x <= d on the inner side
-  std::vector<std::uint16_t> state_;                                  // of vertices
-  std::vector<char> traced_;                                          // of faces
+  Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor> planes_;  // n . x <= d inside, as in face_list
+  std::vector<std::uint16_t> state_;                                 // of vertices
+  std::vector<char> traced_;                                         // of faces
   std::vector<int> parent_, region_, walk_, traced_faces_;
   std::vector<std::pair<int, int>> boundary_;  // in the region, and a neighbour that is not
   std::vector<std::pair<int, int>> edge_pairs_;
+  Eigen::RowVector3f eye_;
   int viewpoint_ = 0;
   std::uint64_t tests_ = 0;
 };

@@ -1,0 +1,163 @@
+#include "partwise/parts/surface/continuous_visibility.h"
+
+#include <fmt/format.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <mutex>
+#include <numeric>
+
+#include "partwise/base/error.h"
+#include "partwise/geometry/inner_visibility.h"
+#include "partwise/parts/surface/surface_graph.h"
+#include "partwise/parts/surface/visible_region.h"
+#include "partwise/parts/surface/weak_visibility.h"
+
+namespace partwise {
+namespace {
+
+// Viewpoints that one thread does in a row, so that each can start from its neighbours' contours. A constant: the
+// number of tests depends on it.
+constexpr int kInARow = 128;
+
+// Calls `done(progress share)` now and then from whichever thread holds the lock; others go on.
+class SharedProgress {
+ public:
+  SharedProgress(const Progress& progress, std::string_view stage, int all)
+      : progress_(progress), stage_(stage), all_(all) {}
+
+  void add(int count) {
+    done_ += count;
+    if (!mutex_.try_lock()) return;
+    const std::lock_guard lock(mutex_, std::adopt_lock);
+    progress_(stage_, static_cast<double>(done_) / all_);
+  }
+
+ private:
+  const Progress& progress_;
+  std::string_view stage_;
+  int all_;
+  std::atomic<int> done_ = 0;
+  std::mutex mutex_;
+};
+
+using UseRegion = std::function<void(int viewpoint, const std::vector<int>& region)>;
+
+// Finds the region of every vertex; `use` is called from several threads. Returns the number of tests.
+std::uint64_t for_each_region(const SurfaceGraph& graph, const InnerVisibility& visibility, VisibilityMethod method,
+                              const Progress& progress, const UseRegion& use) {
+  tbb::enumerable_thread_specific<VisibleRegion> regions([&] { return VisibleRegion(graph, visibility); });
+  SharedProgress shared(progress, "seeing", graph.size());
+  const int rows = (graph.size() + kInARow - 1) / kInARow;
+  tbb::parallel_for(0, rows, [&](int row) {
+    VisibleRegion& region = regions.local();
+    const int begin = row * kInARow, end = std::min(begin + kInARow, graph.size());
+    std::vector<std::vector<std::pair<int, int>>> pairs(static_cast<std::size_t>(end - begin));
+    for (int v = begin; v < end; ++v) {
+      const std::vector<std::pair<int, int>>* hints = nullptr;
+      for (const int w : graph.neighbours(v))
+        if (w >= begin && w < v) hints = &pairs[static_cast<std::size_t>(w - begin)];
+      region.find(v, method, hints);
+      pairs[static_cast<std::size_t>(v - begin)] = region.edge_pairs();
+      use(v, region.vertices());
+    }
+    shared.add(end - begin);
+  });
+  std::uint64_t tests = 0;
+  for (const VisibleRegion& region : regions) tests += region.tests();
+  return tests;
+}
+
+std::int64_t weight_of(const SurfaceGraph& graph, const std::vector<int>& vertices) {
+  std::int64_t sum = 0;
+  for (const int v : vertices) sum += graph.weight[static_cast<std::size_t>(v)];
+  return sum;
+}
+
+VisibilityMatrix all_regions(const SurfaceGraph& graph, const InnerVisibility& visibility, VisibilityMethod method,
+                             const Progress& progress, std::uint64_t& tests) {
+  VisibilityMatrix sees(graph.size());
+  tests = for_each_region(graph, visibility, method, progress, [&](int viewpoint, const std::vector<int>& region) {
+    std::vector<int> sorted = region;
+    std::sort(sorted.begin(), sorted.end());
+    sees.set_row(viewpoint, sorted);
+  });
+  return sees;
+}
+
+std::vector<double> row_areas(const SurfaceGraph& graph, const VisibilityMatrix& sees) {
+  std::vector<double> values(static_cast<std::size_t>(graph.size()));
+  tbb::parallel_for(0, graph.size(), [&](int v) { values[v] = graph.area_of(weight_of(graph, sees.row(v))); });
+  return values;
+}
+
+// Section 2.2.4.3: with the value on the other side of the wall.
+std::vector<double> averaged(const SurfaceGraph& graph, const InnerVisibility& visibility,
+                             const std::vector<double>& values) {
+  std::vector<double> result = values;
+  for (int v = 0; v < graph.size(); ++v) {
+    const int face = visibility.opposite_face(v);
+    if (face < 0) continue;
+    double across = 0;
+    for (const int corner : graph.mesh.faces.row(face)) across += values[corner] / 3;
+    result[v] = (values[v] + across) / 2;
+  }
+  return result;
+}
+
+std::vector<double> graph_values(const SurfaceGraph& graph, const VisibilitySettings& settings,
+                                 const Progress& progress, std::uint64_t& tests) {
+  const InnerVisibility visibility(graph.mesh);
+  switch (settings.kind) {
+    case VisibilityKind::strong:
+      return row_areas(graph, all_regions(graph, visibility, settings.method, progress, tests).mutual());
+    case VisibilityKind::weak:
+      return row_areas(graph, weak_regions(graph, visibility, settings.weak_threshold, progress, tests).mutual());
+    case VisibilityKind::cvf:
+    case VisibilityKind::avg:
+      break;
+  }
+  std::vector<double> values(static_cast<std::size_t>(graph.size()));
+  tests =
+      for_each_region(graph, visibility, settings.method, progress, [&](int viewpoint, const std::vector<int>& region) {
+        values[viewpoint] = graph.area_of(weight_of(graph, region));
+      });
+  return settings.kind == VisibilityKind::avg ? averaged(graph, visibility, values) : values;
+}
+
+}  // namespace
+
+VisibilityFeature continuous_visibility(const Mesh& mesh, const VisibilitySettings& settings,
+                                        const Progress& progress) {
+  if (!(settings.weak_threshold > 0) || !std::isfinite(settings.weak_threshold))
+    throw InputError("weak_threshold", fmt::format("is {}", settings.weak_threshold), "give a positive share of R");
+  const SurfaceGraph graph = surface_graph(mesh);
+  VisibilityFeature feature;
+  const std::vector<double> values = graph_values(graph, settings, progress, feature.tests);
+  feature.values = Eigen::VectorXd::Zero(mesh.vertices.rows());
+  for (Eigen::Index v = 0; v < feature.values.size(); ++v)
+    if (const int number = graph.of_input[static_cast<std::size_t>(v)]; number >= 0) feature.values[v] = values[number];
+  return feature;
+}
+
+VisibilityVectors visibility_vectors(const Mesh& mesh, VisibilityMethod method, const Progress& progress) {
+  const SurfaceGraph graph = surface_graph(mesh);
+  VisibilityVectors vectors;
+  vectors.of_vertex = graph.of_input;
+  vectors.sees = all_regions(graph, InnerVisibility(graph.mesh), method, progress, vectors.tests);
+  return vectors;
+}
+
+Eigen::VectorXd face_means(const Mesh& mesh, const Eigen::VectorXd& vertex_values) {
+  Eigen::VectorXd means(mesh.faces.rows());
+  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f)
+    means[f] =
+        (vertex_values[mesh.faces(f, 0)] + vertex_values[mesh.faces(f, 1)] + vertex_values[mesh.faces(f, 2)]) / 3;
+  return means;
+}
+
+}  // namespace partwise
