@@ -8,7 +8,6 @@
 
 #include "mesh_errors.h"
 #include "options.h"
-#include "part_meshes.h"
 #include "partwise/base/atomic_file.h"
 #include "partwise/geometry/mesh_io.h"
 #include "partwise/parts/surface/continuous_visibility.h"
