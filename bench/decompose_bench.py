@@ -14,8 +14,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import experiments, history, meshes, ridge_noise, summary  # noqa: E402
 from harness.decompose import Settings, decompose  # noqa: E402
 from harness.people import People  # noqa: E402
-
-BIN = Path(__file__).resolve().parent.parent / "build" / "release" / "bin"
+from harness.process import BIN  # noqa: E402
 
 
 def parse(words):

@@ -12,8 +12,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from harness import history, meshes, segmentation  # noqa: E402
 from harness.people import People  # noqa: E402
-
-BIN = Path(__file__).resolve().parent.parent / "build" / "release" / "bin"
+from harness.process import BIN  # noqa: E402
 
 
 def parse(words):

@@ -295,6 +295,57 @@ class Evaluate(CommandLine):
             self.assertIn(word, result.stdout)
 
 
+class Feature(CommandLine):
+    """On two cubes, the smaller on the larger, sharing part of a face's plane but no vertex: two components."""
+
+    sides = [(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4),
+             (1, 5, 7), (1, 7, 3)]
+
+    def setUp(self):
+        super().setUp()
+        lines = ["OFF", "16 24 0"]
+        for low, high in ((0, 2), (4, 5)):
+            lines += [f"{x} {y} {z}" for x in (low, high) for y in (low, high) for z in (low, high)]
+        lines += [f"3 {a + k} {b + k} {c + k}" for k in (0, 8) for a, b, c in self.sides]
+        (self.folder / "cubes.off").write_text("\n".join(lines) + "\n")
+
+    def feature(self, *arguments):
+        return self.run_program("feature", "cubes.off", *arguments)
+
+    def test_each_cube_sees_its_own_area(self):
+        for kind in ("cvf", "cvf-avg", "cvf-strong", "cvf-weak"):
+            result = self.feature("--kind", kind, "--values", "v.txt", "--json", "-")
+            self.assert_done(result)
+            values = [float(line) for line in (self.folder / "v.txt").read_text().splitlines()]
+            for value, area in zip(values, [24] * 8 + [6] * 8, strict=True):
+                self.assertAlmostEqual(value, area, 9)
+            report = json.loads(result.stdout)
+            self.assertEqual((report["min"], report["max"]), (min(values), max(values)))
+            self.assertEqual(report["kind"], kind)
+            self.assertEqual("method" in report, kind != "cvf-weak")
+
+    def test_filter_asks_less_than_search(self):
+        tests = [json.loads(self.feature("--kind", "cvf", "--method", method, "--json", "-").stdout)["visibility_tests"]
+                 for method in ("filter", "bfs")]
+        self.assertLess(tests[0], tests[1])
+        self.assertEqual(tests[1], 2 * 8 * 7)
+
+    def test_wrong_usage(self):
+        for arguments, word in ((["--kind", "height"], "--kind"), ([], "--kind"), (["--kind", "cvf", "--method", "x"], "--method"),
+                                (["--kind", "cvf-weak", "--method", "bfs"], "--method"),
+                                (["--kind", "cvf", "--weak-threshold", "0.2"], "--weak-threshold"),
+                                (["--kind", "cvf-weak", "--weak-threshold", "0"], "--weak-threshold"),
+                                (["--kind", "cvf", "--values", "cubes.off"], "same file")):
+            self.assert_refused(self.feature(*arguments), 2, word, "--help")
+        self.assert_files("cubes.off")
+
+    def test_a_mesh_without_area(self):
+        (self.folder / "flat.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n")
+        result = self.run_program("feature", "flat.off", "--kind", "cvf", "--values", "v.txt")
+        self.assert_refused(result, 1, "flat.off: no face has an area; give a mesh")
+        self.assert_files("cubes.off", "flat.off")
+
+
 class Outputs(CommandLine):
     def test_bad_places_are_told_before_the_work(self):
         (self.folder / "a_folder").mkdir()

@@ -110,9 +110,7 @@ void decompose_files(const Options& options, Run& run) {
 Action add(CLI::App& command) {
   const auto options = std::make_shared<Options>();
   DecompositionSettings& settings = options->settings;
-  command.add_option("MESH", options->mesh, "The mesh: .off, .obj, .ply, .stl, .gltf or .glb")
-      ->required()
-      ->type_name("");
+  add_mesh(command, options->mesh);
   add_positive(command, "--tolerance", settings.tolerance,
                "Largest concavity of a part, as a share of R, the radius of the mesh's bounding sphere; 0.1 is coarse, "
                "0.02 fine")

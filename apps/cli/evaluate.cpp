@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mesh_errors.h"
+#include "options.h"
 #include "partwise/geometry/mesh_io.h"
 #include "partwise/parts/surface/segmentation_measures.h"
 #include "verbs.h"
@@ -84,9 +85,7 @@ void evaluate_files(const Options& options, Run& run) {
 
 Action add(CLI::App& command) {
   const auto options = std::make_shared<Options>();
-  command.add_option("MESH", options->mesh, "The mesh: .off, .obj, .ply, .stl, .gltf or .glb")
-      ->required()
-      ->type_name("");
+  add_mesh(command, options->mesh);
   command.add_option("SEGMENTATION", options->segmentation, "The labels to judge, one a face (.seg)")
       ->required()
       ->type_name("");

@@ -43,7 +43,7 @@ void report(const Options& options, const VisibilityFeature& feature, Run& run) 
   json["max"] = feature.values.maxCoeff();
   json["mean"] = feature.values.mean();
   json["kind"] = name_of(kinds, options.settings.kind);
-  json["method"] = name_of(methods, options.settings.method);
+  if (options.settings.kind != VisibilityKind::weak) json["method"] = name_of(methods, options.settings.method);
   json["vertices"] = feature.values.size();
   json["input"] = options.mesh;
   run.summary =
@@ -71,21 +71,26 @@ void feature_of_file(const Options& options, Run& run) {
 Action add(CLI::App& command) {
   const auto options = std::make_shared<Options>();
   VisibilitySettings& settings = options->settings;
-  command.add_option("MESH", options->mesh, "The mesh: .off, .obj, .ply, .stl, .gltf or .glb")
-      ->required()
-      ->type_name("");
+  add_mesh(command, options->mesh);
   add_choice(command, "--kind", settings.kind, kinds,
              "cvf: area that a vertex sees over visible paths; cvf-avg: its mean with the value on the other side of "
              "the wall; cvf-strong: what sees back; cvf-weak: over shortest paths that are hidden for little")
       ->required();
-  add_choice(
+  const CLI::Option* method = add_choice(
       command, "--method", settings.method, methods,
       "filter: few tests, the same as bfs [default]; bfs: search in breadth; bfs-plain: without filling islands; "
       "filter-printed: as published");
-  add_positive(command, "--weak-threshold", settings.weak_threshold,
-               "Of cvf-weak: the longest hidden part of a path, as a share of the bounding-sphere radius [0.1]");
+  const CLI::Option* threshold =
+      add_positive(command, "--weak-threshold", settings.weak_threshold,
+                   "Of cvf-weak: the longest hidden part of a path, as a share of the bounding-sphere radius [0.1]");
   add_file(command, "--values", options->values, "Write the value of each vertex, one a line");
-  return [options](Run& run) { feature_of_file(*options, run); };
+  return [options, method, threshold](Run& run) {
+    const bool weak = options->settings.kind == VisibilityKind::weak;
+    if (weak && method->count() > 0)
+      throw UsageError("--method does not belong to --kind cvf-weak, which searches in a way of its own; leave it out");
+    if (!weak && threshold->count() > 0) throw UsageError("--weak-threshold belongs to --kind cvf-weak; leave it out");
+    feature_of_file(*options, run);
+  };
 }
 
 }  // namespace

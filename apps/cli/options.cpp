@@ -16,6 +16,10 @@ CLI::Option* add_file(CLI::App& command, const std::string& option, std::string&
   return command.add_option_function<std::string>(option, take, help)->type_name("FILE");
 }
 
+CLI::Option* add_mesh(CLI::App& command, std::string& file) {
+  return command.add_option("MESH", file, "The mesh: .off, .obj, .ply, .stl, .gltf or .glb")->required()->type_name("");
+}
+
 CLI::Option* add_count(CLI::App& command, const std::string& option, int& count, int least, const std::string& help) {
   const auto take = [option, least, &count](const int& number) {
     if (number < least) throw CLI::ValidationError(option, fmt::format("{} is less than {}", number, least));

@@ -11,6 +11,9 @@ namespace partwise::cli {
 // Names a file. The empty name, which a script's unset variable leaves, is wrong usage.
 CLI::Option* add_file(CLI::App& command, const std::string& option, std::string& file, const std::string& help);
 
+// MESH, which most verbs read first.
+CLI::Option* add_mesh(CLI::App& command, std::string& file);
+
 // A whole number, `least` or more.
 CLI::Option* add_count(CLI::App& command, const std::string& option, int& count, int least, const std::string& help);
 

@@ -6,6 +6,9 @@ import subprocess
 import tempfile
 import threading
 from dataclasses import dataclass
+from pathlib import Path
+
+BIN = Path(__file__).resolve().parents[2] / "build" / "release" / "bin"  # where ./run builds programs
 
 
 @dataclass

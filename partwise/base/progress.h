@@ -4,7 +4,9 @@
 // one thread at a time only.
 #pragma once
 
+#include <atomic>
 #include <functional>
+#include <mutex>
 #include <string_view>
 
 #include "partwise/base/error.h"
@@ -21,6 +23,27 @@ struct Progress {
     if (cancelled && cancelled()) throw Cancelled();
     if (report) report(stage, done);
   }
+};
+
+// The progress of a parallel loop over `all` items: whoever comes first reports for all, the others go on.
+class SharedProgress {
+ public:
+  SharedProgress(const Progress& progress, std::string_view stage, int all)
+      : progress_(progress), stage_(stage), all_(all) {}
+
+  void add(int count) {
+    done_ += count;
+    if (!mutex_.try_lock()) return;
+    const std::lock_guard lock(mutex_, std::adopt_lock);
+    progress_(stage_, static_cast<double>(done_) / all_);
+  }
+
+ private:
+  const Progress& progress_;
+  std::string_view stage_;
+  int all_;
+  std::atomic<int> done_ = 0;
+  std::mutex mutex_;
 };
 
 }  // namespace partwise

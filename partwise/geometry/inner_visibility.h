@@ -27,7 +27,7 @@ class InnerVisibility {
 
   bool sees(int p, int q) const;
 
-  // The moved vertices and the mesh, centred and scaled to R = 1, rounded to single precision: what is asked of rays.
+  // The moved vertices, centred and scaled to R = 1 and rounded to single precision: the ends of the rays.
   const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>& inner_points() const;
 
   // The face that the ray from a vertex against its normal meets first, farther than 1e-4 R; -1 for none.

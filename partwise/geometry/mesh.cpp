@@ -86,4 +86,14 @@ double signed_volume(const Mesh& mesh) {
   return six / 6;
 }
 
+std::vector<double> face_areas(const Mesh& mesh) {
+  std::vector<double> areas;
+  areas.reserve(static_cast<std::size_t>(mesh.faces.rows()));
+  for (const auto& f : mesh.faces.rowwise()) {
+    const Point a = mesh.vertices.row(f[0]), b = mesh.vertices.row(f[1]), c = mesh.vertices.row(f[2]);
+    areas.push_back((b - a).cross(c - a).norm() / 2);
+  }
+  return areas;
+}
+
 }  // namespace partwise

@@ -29,4 +29,7 @@ Sphere bounding_sphere(const Mesh& mesh);
 // Signed volume by the divergence theorem, positive when faces are counter-clockwise from outside. For closed meshes.
 double signed_volume(const Mesh& mesh);
 
+// Of each face, model units squared.
+std::vector<double> face_areas(const Mesh& mesh);
+
 }  // namespace partwise

@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 namespace partwise {
 namespace {
@@ -11,8 +13,6 @@ namespace {
 using Corners = Eigen::Matrix3d;  // a face's vertices, one a row
 
 Corners corners_of(const Mesh& mesh, Eigen::Index face) { return mesh.vertices(mesh.faces.row(face), Eigen::all); }
-
-double area_of(const Corners& c) { return 0.5 * Point(c.row(1) - c.row(0)).cross(Point(c.row(2) - c.row(0))).norm(); }
 
 // The integral of x y^T over a face of area 1.
 Eigen::Matrix3d second_moment(const Corners& c) {
@@ -30,19 +30,16 @@ double third_moment(const Eigen::Vector3d& at) {
 
 Eigen::Matrix3d principal_axes(const Mesh& mesh) {
   constexpr double kUpright = 1e-12, kSkew = 1e-9;
-  double area = 0;
+  const std::vector<double> areas = face_areas(mesh);
+  const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
   Point centroid = Point::Zero();
-  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
-    const Corners c = corners_of(mesh, f);
-    area += area_of(c);
-    centroid += area_of(c) * c.colwise().mean();
-  }
   if (!(area > 0) || !std::isfinite(area)) return Eigen::Matrix3d::Identity();
-  centroid /= area;
+  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f)
+    centroid += areas[f] / area * corners_of(mesh, f).colwise().mean();
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
   for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
     const Corners c = corners_of(mesh, f);
-    moments += area_of(c) / area * second_moment(c.rowwise() - centroid);
+    moments += areas[f] / area * second_moment(c.rowwise() - centroid);
   }
   moments = (moments.array().abs() < kUpright * moments.trace()).select(0, moments);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moments);
@@ -52,7 +49,7 @@ Eigen::Matrix3d principal_axes(const Mesh& mesh) {
     double skew = 0;
     for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
       const Corners c = corners_of(mesh, f);
-      skew += area_of(c) / area * third_moment((c.rowwise() - centroid) * axes.row(k).transpose());
+      skew += areas[f] / area * third_moment((c.rowwise() - centroid) * axes.row(k).transpose());
     }
     Eigen::Index largest;
     axes.row(k).cwiseAbs().maxCoeff(&largest);

@@ -70,7 +70,7 @@ void check(const Mesh& mesh, const DecompositionSettings& settings, double radiu
 // Rounded to multiples of 2^-38, so that the rounding that came with placing the mesh decides no ties: the grid is so
 // coarse that few coordinates are rounded to another multiple, and far below what vertices may be out of a hull.
 Vertices on_grid(const Vertices& vertices) {
-  constexpr double kPerUnit = 274877906944;
+  constexpr double kPerUnit = 0x1p38;
   return (vertices * kPerUnit).array().round() / kPerUnit;
 }
 

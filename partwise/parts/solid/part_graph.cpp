@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <queue>
 
@@ -27,6 +28,46 @@ std::optional<double> unfolded_diagonal(const Point& a, const Point& b, const Po
   return std::hypot(xp - xq, yp + yq);
 }
 
+// Half-edges by their lower vertex, through counting; those of one vertex by the higher, then by face.
+struct HalfEdges {
+  struct HalfEdge {
+    int high, face, opposite;
+  };
+  std::vector<int> first;  // by lower vertex
+  std::vector<HalfEdge> list;
+
+  explicit HalfEdges(const PartGraph& part) : first(part.vertices.size() + 1, 0) {
+    for (const auto& c : part.corners)
+      for (int k = 0; k < 3; ++k)
+        if (c[k] != c[(k + 1) % 3]) ++first[std::min(c[k], c[(k + 1) % 3]) + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    list.resize(static_cast<std::size_t>(first.back()));
+    std::vector<int> end(first.begin(), first.end() - 1);
+    for (int f = 0; f < static_cast<int>(part.corners.size()); ++f) {
+      const auto& c = part.corners[f];
+      for (int k = 0; k < 3; ++k) {
+        const auto [low, high] = std::minmax(c[k], c[(k + 1) % 3]);
+        if (low != high) list[end[low]++] = {high, f, c[(k + 2) % 3]};
+      }
+    }
+    for (int v = 0; v < part.size(); ++v) {
+      std::sort(list.begin() + first[v], list.begin() + first[v + 1], [](const HalfEdge& x, const HalfEdge& y) {
+        return x.high != y.high ? x.high < y.high : x.face < y.face;
+      });
+    }
+  }
+
+  // Calls visit(half-edges of an edge) for the edges whose lower vertex is v.
+  template <typename Visit>
+  void for_each_edge(int v, const Visit& visit) const {
+    for (int i = first[v], j; i < first[v + 1]; i = j) {
+      j = i + 1;
+      while (j < first[v + 1] && list[j].high == list[i].high) ++j;
+      visit(std::span(list).subspan(i, j - i));
+    }
+  }
+};
+
 }  // namespace
 
 PartGraph part_graph(const Mesh& mesh, std::span<const int> faces) {
@@ -42,47 +83,23 @@ PartGraph part_graph(const Mesh& mesh, std::span<const int> faces) {
   }
   part.positions = mesh.vertices(part.vertices, Eigen::all);
 
-  // Half-edges by lower, then by higher vertex, then by face: sorted by the lower one through counting, for each has
-  // few.
-  struct HalfEdge {
-    int high, face, opposite;
-  };
   part.corners.reserve(faces.size());
-  std::vector<int> lower(part.vertices.size() + 1, 0);
-  for (int f : faces) {
+  for (int f : faces)
     part.corners.push_back({local[mesh.faces(f, 0)], local[mesh.faces(f, 1)], local[mesh.faces(f, 2)]});
-    const auto& c = part.corners.back();
-    for (int k = 0; k < 3; ++k)
-      if (c[k] != c[(k + 1) % 3]) ++lower[std::min(c[k], c[(k + 1) % 3]) + 1];
-  }
-  for (std::size_t v = 0; v < part.vertices.size(); ++v) lower[v + 1] += lower[v];
-  std::vector<HalfEdge> half_edges(static_cast<std::size_t>(lower.back()));
-  std::vector<int> end(lower.begin(), lower.end() - 1);
-  for (int f = 0; f < static_cast<int>(part.corners.size()); ++f) {
-    const auto& c = part.corners[f];
-    for (int k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax(c[k], c[(k + 1) % 3]);
-      if (low != high) half_edges[end[low]++] = {high, f, c[(k + 2) % 3]};
-    }
-  }
-  for (int v = 0; v < part.size(); ++v) {
-    std::sort(
-        half_edges.begin() + lower[v], half_edges.begin() + lower[v + 1],
-        [](const HalfEdge& x, const HalfEdge& y) { return x.high != y.high ? x.high < y.high : x.face < y.face; });
-  }
+  const HalfEdges half_edges(part);
 
   struct Link {
     int a, b;
     double length;
   };
   std::vector<Link> links;
-  links.reserve(half_edges.size());
-  const auto add_edge = [&](int a, std::span<const HalfEdge> sides) {
+  links.reserve(half_edges.list.size());
+  const auto add_edge = [&](int a, std::span<const HalfEdges::HalfEdge> sides) {
     const int b = sides.front().high;
     const Point pa = part.positions.row(a), pb = part.positions.row(b);
     links.push_back({a, b, (pa - pb).norm()});
     for (std::size_t j = 1; j < sides.size(); ++j) {
-      const HalfEdge &e = sides[j - 1], &next = sides[j];
+      const HalfEdges::HalfEdge &e = sides[j - 1], &next = sides[j];
       if (e.face == next.face) continue;
       part.shared.push_back({e.face, next.face, a, b});
       if (e.opposite == next.opposite) continue;
@@ -91,13 +108,7 @@ PartGraph part_graph(const Mesh& mesh, std::span<const int> faces) {
       if (diagonal) links.push_back({e.opposite, next.opposite, *diagonal});
     }
   };
-  for (int v = 0; v < part.size(); ++v) {
-    for (int i = lower[v], j; i < lower[v + 1]; i = j) {
-      for (j = i + 1; j < lower[v + 1] && half_edges[j].high == half_edges[i].high; ++j) {
-      }
-      add_edge(v, std::span(half_edges).subspan(i, j - i));
-    }
-  }
+  for (int v = 0; v < part.size(); ++v) half_edges.for_each_edge(v, [&](const auto& sides) { add_edge(v, sides); });
   part.first.assign(part.vertices.size() + 1, 0);
   for (const Link& l : links) ++part.first[l.a + 1], ++part.first[l.b + 1];
   for (std::size_t v = 0; v < part.vertices.size(); ++v) part.first[v + 1] += part.first[v];

@@ -57,12 +57,15 @@ TEST(PathSearch, EqualsAllPairsShortestPaths) {
       for (int b = 0; b < graph.size(); ++b) {
         if (std::isinf(length(a, b))) {
           EXPECT_TRUE(std::isinf(search.bounded_length(a, b, 1e9)));
+          EXPECT_FALSE(search.has_path(a, b, 1e9));
           continue;
         }
         EXPECT_NEAR(search.bounded_length(a, b, length(a, b) + 1e-9), length(a, b), 1e-12);
         EXPECT_NEAR(search.bounded_length(a, b, 1e9), length(a, b), 1e-12);
+        EXPECT_TRUE(search.has_path(a, b, length(a, b) + 1e-9));
         if (a != b) {
           EXPECT_TRUE(std::isinf(search.bounded_length(a, b, length(a, b) - 1e-9)));
+          EXPECT_FALSE(search.has_path(a, b, length(a, b) - 1e-9));
         }
       }
     }

@@ -104,7 +104,7 @@ bool PartMerging::joined(const HullPart& a, const HullPart& b, HullPart& result)
   merged.faces.resize(a.faces.size() + b.faces.size());
   std::merge(a.faces.begin(), a.faces.end(), b.faces.begin(), b.faces.end(), merged.faces.begin());
   const std::uint64_t key = hash(merged.faces);
-  if (refused_.count(key)) return false;
+  if (refused_joins_.count(key)) return false;
   if (const HullPart* outer = encloses(a, b) ? &a : encloses(b, a) ? &b : nullptr) {
     std::vector<int> faces = std::move(merged.faces);
     merged = *outer;
@@ -116,7 +116,7 @@ bool PartMerging::joined(const HullPart& a, const HullPart& b, HullPart& result)
     set_hull(merged, both, settings_.minimum_thickness);
   }
   if (!accept_(merged)) {
-    refused_.insert(key);
+    refused_joins_.insert(key);
     return false;
   }
   result = std::move(merged);

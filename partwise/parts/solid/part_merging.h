@@ -76,10 +76,11 @@ class PartMerging {
   MergeSettings settings_;
   std::vector<HullPart> pieces_;
   std::vector<std::vector<int>> piece_neighbours_;
-  std::vector<int> part_of_;         // of each piece
-  std::vector<Part> parts_;          // those without pieces are gone
-  std::vector<int> covered_;         // how many hulls each air point is in
-  std::set<std::uint64_t> refused_;  // hashes of the faces of joins; that two agree would cost no more than a merge
+  std::vector<int> part_of_;  // of each piece
+  std::vector<Part> parts_;   // those without pieces are gone
+  std::vector<int> covered_;  // how many hulls each air point is in
+  std::set<std::uint64_t>
+      refused_joins_;  // hashes of the faces of joins; that two agree would cost no more than a merge
 };
 
 }  // namespace partwise

@@ -5,11 +5,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <functional>
-#include <mutex>
-#include <numeric>
 
 #include "partwise/base/error.h"
 #include "partwise/geometry/inner_visibility.h"
@@ -23,27 +20,6 @@ namespace {
 // Viewpoints that one thread does in a row, so that each can start from its neighbours' contours. A constant: the
 // number of tests depends on it.
 constexpr int kInARow = 128;
-
-// Calls `done(progress share)` now and then from whichever thread holds the lock; others go on.
-class SharedProgress {
- public:
-  SharedProgress(const Progress& progress, std::string_view stage, int all)
-      : progress_(progress), stage_(stage), all_(all) {}
-
-  void add(int count) {
-    done_ += count;
-    if (!mutex_.try_lock()) return;
-    const std::lock_guard lock(mutex_, std::adopt_lock);
-    progress_(stage_, static_cast<double>(done_) / all_);
-  }
-
- private:
-  const Progress& progress_;
-  std::string_view stage_;
-  int all_;
-  std::atomic<int> done_ = 0;
-  std::mutex mutex_;
-};
 
 using UseRegion = std::function<void(int viewpoint, const std::vector<int>& region)>;
 

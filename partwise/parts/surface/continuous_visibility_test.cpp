@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <random>
 
 #include "partwise/base/error.h"
@@ -21,12 +22,8 @@ namespace partwise {
 namespace {
 
 double area(const Mesh& mesh) {
-  double sum = 0;
-  for (const auto& f : mesh.faces.rowwise()) {
-    const Point a = mesh.vertices.row(f[0]);
-    sum += (mesh.vertices.row(f[1]) - a).cross(mesh.vertices.row(f[2]) - a).norm() / 2;
-  }
-  return sum;
+  const std::vector<double> areas = face_areas(mesh);
+  return std::accumulate(areas.begin(), areas.end(), 0.0);
 }
 
 Mesh fine_box(const Point& low, const Point& high, double edge) {
@@ -127,25 +124,62 @@ TEST(ContinuousVisibility, FilterGivesTheRegionOfTheSearchWithFewerTests) {
   }
 }
 
-// By definition: a vertex is in the plain region when a chain of visible vertices leads to it; islands by brute force.
+// Whether some face at v has the eye on its inner side or, to rounding, in its plane.
+bool positive(const SurfaceGraph& graph, int eye, int v) {
+  for (const int f : graph.faces(v)) {
+    const Point a = graph.mesh.vertices.row(graph.mesh.faces(f, 0));
+    const Point across = (graph.mesh.vertices.row(graph.mesh.faces(f, 1)) - a)
+                             .cross(graph.mesh.vertices.row(graph.mesh.faces(f, 2)) - a);
+    if (across.dot(graph.mesh.vertices.row(eye) - a) <= 1e-6 * across.norm()) return true;
+  }
+  return false;
+}
+
+// All vertices that chains of allowed ones join to `start`, by going over all edges until nothing changes.
+std::vector<char> joined(const SurfaceGraph& graph, int start, const std::vector<char>& allowed) {
+  std::vector<char> reached(static_cast<std::size_t>(graph.size()), 0);
+  reached[start] = 1;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (int a = 0; a < graph.size(); ++a)
+      for (const int b : graph.neighbours(a))
+        if (reached[a] && !reached[b] && allowed[b]) reached[b] = 1, changed = true;
+  }
+  return reached;
+}
+
+// By the definitions, in the plainest way.
 TEST(ContinuousVisibility, SearchFindsWhatTheDefinitionSays) {
-  for (const Mesh& mesh : {wavy(14, 10), cup(4, 10)}) {
+  int islands = 0;
+  for (const Mesh& mesh : {wavy(14, 10), cup(4, 10), shapes()[2]}) {
     const SurfaceGraph graph = surface_graph(mesh);
     const InnerVisibility visibility(graph.mesh);
     VisibleRegion region(graph, visibility);
+    std::vector<char> seen(static_cast<std::size_t>(graph.size())), faced(seen), other(seen);
     for (int v = 0; v < graph.size(); ++v) {
-      std::vector<char> reached(static_cast<std::size_t>(graph.size()), 0);
-      reached[v] = 1;
-      for (bool changed = true; changed;) {
-        changed = false;
-        for (int a = 0; a < graph.size(); ++a)
-          for (const int b : graph.neighbours(a))
-            if (reached[a] && !reached[b] && visibility.sees(v, b)) reached[b] = 1, changed = true;
+      for (int w = 0; w < graph.size(); ++w) {
+        seen[w] = w == v || visibility.sees(v, w);
+        faced[w] = w == v || (seen[w] && positive(graph, v, w));
       }
+      const std::vector<char> plain = joined(graph, v, seen);
       region.find(v, VisibilityMethod::bfs_plain);
-      for (int w = 0; w < graph.size(); ++w) ASSERT_EQ(region.contains(w), reached[w] != 0);
+      for (int w = 0; w < graph.size(); ++w) ASSERT_EQ(region.contains(w), plain[w] != 0);
+
+      const std::vector<char> reached = joined(graph, v, faced);
+      for (int w = 0; w < graph.size(); ++w) other[w] = !reached[w];
+      region.find(v, VisibilityMethod::bfs);
+      for (int w = 0; w < graph.size(); ++w) {
+        bool island = !reached[w];
+        if (island) {
+          const std::vector<char> piece = joined(graph, w, other);
+          for (int u = 0; u < graph.size(); ++u) island = island && (!piece[u] || positive(graph, v, u));
+        }
+        islands += island;
+        ASSERT_EQ(region.contains(w), reached[w] || island) << v << " " << w;
+      }
     }
   }
+  EXPECT_GT(islands, 0);
 }
 
 TEST(ContinuousVisibility, InsideOfACupSeesLessThanItsOutside) {
@@ -226,6 +260,11 @@ TEST(ContinuousVisibility, DegenerateFacesChangeNothing) {
   mesh.faces.bottomRows(2) << 5, 5, 6, 7, 7, 7;
   const VisibilityFeature after = continuous_visibility(mesh);
   EXPECT_TRUE(after.values.isApprox(before.values, 1e-12));
+}
+
+TEST(ContinuousVisibility, OfFacesIsTheMeanOfTheirCorners) {
+  const Mesh mesh{Vertices::Zero(4, 3), (Faces(2, 3) << 0, 1, 2, 3, 2, 1).finished()};
+  EXPECT_EQ(face_means(mesh, Eigen::Vector4d(3, 6, 9, 12)), Eigen::Vector2d(6, 9));
 }
 
 TEST(ContinuousVisibility, RefusesWhatItCannotUse) {

@@ -19,16 +19,6 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<double> face_areas(const Mesh& mesh) {
-  std::vector<double> areas;
-  areas.reserve(static_cast<std::size_t>(mesh.faces.rows()));
-  for (const auto& f : mesh.faces.rowwise()) {
-    const Point a = mesh.vertices.row(f[0]), b = mesh.vertices.row(f[1]), c = mesh.vertices.row(f[2]);
-    areas.push_back((b - a).cross(c - a).norm() / 2);
-  }
-  return areas;
-}
-
 // As the benchmark has it: a face stands in its centroid.
 double mean_radius(const Mesh& mesh, const std::vector<double>& areas, double total) {
   const auto centroid_of = [&](Eigen::Index f) -> Point {

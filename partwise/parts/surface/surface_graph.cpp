@@ -1,7 +1,5 @@
 #include "partwise/parts/surface/surface_graph.h"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -30,7 +28,7 @@ std::uint64_t morton_code(const Point& p) {  // of a point in [-1, 1]^3
          spread(static_cast<std::uint64_t>(cell[2])) << 2;
 }
 
-// `lists[k]` appended for each k, ascending and each member once.
+// The second members by the first one, ascending and each once.
 void flatten(std::vector<std::pair<int, int>>& pairs, int count, std::vector<int>& first, std::vector<int>& list) {
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
@@ -41,11 +39,6 @@ void flatten(std::vector<std::pair<int, int>>& pairs, int count, std::vector<int
     list.push_back(to);
   }
   std::partial_sum(first.begin(), first.end(), first.begin());
-}
-
-double face_area(const Mesh& mesh, Eigen::Index face) {
-  const Point a = mesh.vertices.row(mesh.faces(face, 0));
-  return 0.5 * (mesh.vertices.row(mesh.faces(face, 1)) - a).cross(mesh.vertices.row(mesh.faces(face, 2)) - a).norm();
 }
 
 }  // namespace
@@ -91,8 +84,7 @@ SurfaceGraph surface_graph(const Mesh& input) {
   flatten(neighbours, graph.size(), graph.first_neighbour, graph.neighbour_list);
   flatten(faces, graph.size(), graph.first_face, graph.face_list);
 
-  std::vector<double> area(static_cast<std::size_t>(graph.mesh.faces.rows()));
-  for (std::size_t f = 0; f < area.size(); ++f) area[f] = face_area(graph.mesh, static_cast<Eigen::Index>(f));
+  const std::vector<double> area = face_areas(graph.mesh);
   const double whole = std::accumulate(area.begin(), area.end(), 0.0);
   graph.area = whole * sphere.radius * sphere.radius;
   graph.weight.assign(order.size(), 0);

@@ -99,25 +99,16 @@ void VisibleRegion::search(bool only_positive) {
 
 void VisibleRegion::fill_islands() {
   const std::size_t reached = region_.size();
-  for (std::size_t i = 0; i < reached; ++i) {
-    for (const int start : graph_.neighbours(region_[i])) {
-      if (is(start, kInRegion | kSearched)) continue;
-      bool negative = false;
-      walk_.assign(1, start);
-      set(start, kSearched);
-      for (std::size_t k = 0; k < walk_.size(); ++k) {
-        negative = !positive(walk_[k]) || negative;
-        for (const int w : graph_.neighbours(walk_[k])) {
-          if (is(w, kInRegion | kSearched)) continue;
-          set(w, kSearched);
-          walk_.push_back(w);
-        }
-      }
-      if (negative) continue;
-      for (const int v : walk_) set(v, kInRegion);
-      region_.insert(region_.end(), walk_.begin(), walk_.end());
-    }
-  }
+  for (std::size_t i = 0; i < reached; ++i)
+    for (const int start : graph_.neighbours(region_[i])) fill_if_island(start);
+}
+
+// Takes in what is joined to `start` outside the region, unless it holds a vertex that is not positive.
+void VisibleRegion::fill_if_island(int start) {
+  if (is(start, kInRegion | kOutside)) return;
+  const bool outside = reaches_negative(start, kInRegion);
+  for (const int v : walk_) set(v, outside ? kOutside : kInRegion);
+  if (!outside) region_.insert(region_.end(), walk_.begin(), walk_.end());
 }
 
 // The positive vertices that are joined to the viewpoint without the blocked ones.
@@ -210,19 +201,21 @@ void VisibleRegion::spread_certainty(int from) {
   }
 }
 
-// Whether a vertex that is not positive is joined to `start` without passing the walls. Those walked over are marked.
+// Whether a vertex that is not positive is joined to `start` without passing the walls. Those walked over are in walk_.
 bool VisibleRegion::reaches_negative(int start, State walls) {
   walk_.assign(1, start);
   set(start, kSearched);
-  for (std::size_t i = 0; i < walk_.size(); ++i) {
-    if (is(walk_[i], kOutside) || !positive(walk_[i])) return true;
+  bool found = false;
+  for (std::size_t i = 0; i < walk_.size() && !found; ++i) {
+    found = is(walk_[i], kOutside) || !positive(walk_[i]);
     for (const int w : graph_.neighbours(walk_[i])) {
       if (is(w, kSearched | walls)) continue;
       set(w, kSearched);
       walk_.push_back(w);
     }
   }
-  return false;
+  for (const int v : walk_) clear(v, kSearched);
+  return found;
 }
 
 // Makes sure that a visible vertex is joined to the viewpoint by visible vertices.
@@ -241,14 +234,13 @@ VisibleRegion::Certified VisibleRegion::certify(int boundary) {
     const Contour contour = trace(parent_[hidden], hidden);
     spread_certainty(parent_[hidden]);
     const bool island = !reaches_negative(hidden, kCertain);
-    for (const int w : walk_) clear(w, kSearched);
     if (!island) {
       block(contour);
       return Certified::changed;
     }
     // The way goes on behind the island.
-    for (v = boundary; !is(v, kCertain) && v != hidden; v = parent_[v]) {
-    }
+    v = boundary;
+    while (!is(v, kCertain) && v != hidden) v = parent_[v];
     if (v == hidden) return Certified::failed;
   }
   return Certified::yes;
@@ -259,16 +251,15 @@ VisibleRegion::Certified VisibleRegion::certify(int boundary) {
 // holds a vertex that is not positive. For then no path leads from the flood to the outside, and nothing inside is
 // missing.
 void VisibleRegion::filter(const std::vector<std::pair<int, int>>* hints) {
-  constexpr int kMostRounds = 100;
   if (hints) start_from(*hints);
-  for (int round = 0;; ++round) {
+  for (;;) {  // Each round blocks a vertex more.
     flood();
     if (cut_leak()) continue;
     spread_certainty(viewpoint_);
     Certified all = Certified::yes;
     for (std::size_t i = 0; i < boundary_.size() && all == Certified::yes; ++i) all = certify(boundary_[i].first);
     if (all == Certified::yes) break;
-    if (all == Certified::failed || round > kMostRounds) {
+    if (all == Certified::failed) {
       search(true);
       fill_islands();
       return;
@@ -277,13 +268,7 @@ void VisibleRegion::filter(const std::vector<std::pair<int, int>>* hints) {
   for (const auto& [inner, outer] : boundary_) {
     if (is(outer, kNegative | kInRegion)) continue;
     edge_pairs_.emplace_back(inner, outer);
-    if (is(outer, kOutside)) continue;
-    const bool outside = reaches_negative(outer, kInRegion);
-    for (const int v : walk_) {
-      clear(v, kSearched);
-      set(v, outside ? kOutside : kInRegion);
-    }
-    if (!outside) region_.insert(region_.end(), walk_.begin(), walk_.end());
+    fill_if_island(outer);
   }
 }
 

@@ -44,11 +44,11 @@ class VisibleRegion {
     kPositive = 2,
     kNegative = 4,  // neither: not asked yet
     kVisible = 8,
-    kHidden = 16,   // neither: not tested yet
-    kBlocked = 32,  // hidden: the flood does not pass
-    kCertain = 64,  // visible, and joined to the viewpoint by visible vertices
-    kSearched = 128,
-    kOutside = 256  // cut off, with a vertex that is not positive
+    kHidden = 16,     // neither: not tested yet
+    kBlocked = 32,    // hidden: the flood does not pass
+    kCertain = 64,    // visible, and joined to the viewpoint by visible vertices
+    kSearched = 128,  // in a walk
+    kOutside = 256    // cut off, with a vertex that is not positive
   };
   struct Contour {  // of a set of visible vertices that hang together
     std::vector<int> visible, hidden;
@@ -62,6 +62,7 @@ class VisibleRegion {
 
   void search(bool only_positive);
   void fill_islands();
+  void fill_if_island(int start);
   void filter(const std::vector<std::pair<int, int>>* hints);
   void filter_printed();
 

@@ -4,9 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
-#include <mutex>
 #include <queue>
 #include <vector>
 
@@ -88,14 +86,10 @@ VisibilityMatrix weak_regions(const SurfaceGraph& graph, const InnerVisibility& 
                               const Progress& progress, std::uint64_t& tests) {
   VisibilityMatrix sees(graph.size());
   tbb::enumerable_thread_specific<WeakSearch> searches([&] { return WeakSearch(graph, visibility, threshold); });
-  std::atomic<int> done = 0;
-  std::mutex mutex;
+  SharedProgress shared(progress, "seeing", graph.size());
   tbb::parallel_for(0, graph.size(), [&](int v) {
     sees.set_row(v, searches.local().region(v));
-    ++done;
-    if (v % 64 != 0 || !mutex.try_lock()) return;
-    const std::lock_guard lock(mutex, std::adopt_lock);
-    progress("seeing", static_cast<double>(done) / graph.size());
+    shared.add(1);
   });
   tests = 0;
   for (const WeakSearch& search : searches) tests += search.tests();
