@@ -45,11 +45,8 @@ Vertices thicken(const Vertices& points, double minimum_thickness) {
   return thick;
 }
 
-// Facets that are not triangles are cut into such. Where many points lie nearly in a plane, Qhull may refuse to merge
-// them into one facet; it always succeeds when it may move the points by some rounding errors.
-constexpr const char *kTriangulated = "Qt", *kJoggled = "QJ";
-
-// Facets of the hull as corners into `points`, counter-clockwise from outside; empty when Qhull finds them flat.
+// Facets of the hull as corners into `points`, counter-clockwise from outside; empty when Qhull fails with these
+// options.
 std::vector<std::array<int, 3>> qhull_facets(const Vertices& points, const char* options) {
   struct Session {
     qhT qh;
@@ -85,6 +82,14 @@ std::vector<std::array<int, 3>> qhull_facets(const Vertices& points, const char*
   return facets;
 }
 
+// Facets that are not triangles are cut into such. Where many points lie nearly in a plane, Qhull may refuse to merge
+// them into one facet, however thick the whole is; it succeeds when it may move the points by some rounding errors.
+std::vector<std::array<int, 3>> facets_of(const Vertices& points) {
+  std::vector<std::array<int, 3>> facets = qhull_facets(points, "Qt");
+  if (facets.empty()) facets = qhull_facets(points, "QJ");
+  return facets;
+}
+
 }  // namespace
 
 ConvexHull convex_hull(const Vertices& points, double minimum_thickness) {
@@ -94,14 +99,13 @@ ConvexHull convex_hull(const Vertices& points, double minimum_thickness) {
   std::vector<std::array<int, 3>> facets;
   if (points.rows() >= 4) {
     const Eigen::Matrix3d axes = principal_axes(points);
-    if (extent(points, axes.col(0)) >= minimum_thickness) facets = qhull_facets(points, kTriangulated);
+    if (extent(points, axes.col(0)) >= minimum_thickness) facets = facets_of(points);
   }
   Vertices thick;
   hull.thickened = facets.empty();
   if (hull.thickened) {
     thick = thicken(points, minimum_thickness);
-    facets = qhull_facets(thick, kTriangulated);
-    if (facets.empty()) facets = qhull_facets(thick, kJoggled);
+    facets = facets_of(thick);
     PARTWISE_CHECK(facets.size(), >=, 4u);
   }
   const Vertices& corners = hull.thickened ? thick : points;
