@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-namespace partwise {
+#include "partwise/geometry/orientation.h"
 
-inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+namespace partwise {
 
 std::vector<int> planar_hull(std::span<const Eigen::Vector2d> points);
 
