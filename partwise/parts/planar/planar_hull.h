@@ -1,5 +1,5 @@
 // The convex hull of points in the plane as indices, counter-clockwise, from the leftmost lowest point; points on an
-// edge of the hull and repeated points are left out (Andrew 1979). O(n log n).
+// edge of the hull and repeated points are left out (Andrew 1979). Exact. O(n log n).
 #pragma once
 
 #include <Eigen/Core>
