@@ -36,6 +36,22 @@ void check_finite(const Polygons& polygons, const std::string& place) {
   }
 }
 
+Polygons read_by_ending(const std::filesystem::path& path, const PolygonReadSettings& settings) {
+  const std::string file = path.string(), ending = path.extension().string();
+  const auto is = [&](std::string_view name) { return equals_ignoring_case(ending, name); };
+  if (!is(".poly") && !is(".wkt") && !is(".geojson") && !is(".json") && !is(".svg")) {
+    throw InputError(file,
+                     ending.empty() ? "has no ending that names a polygon format"
+                                    : fmt::format("{} is not the ending of a polygon format", shown(ending)),
+                     "use .poly, .svg, .geojson, .json or .wkt");
+  }
+  const std::string bytes = read_bytes(path);
+  if (is(".poly")) return read_poly(file, bytes, settings.lenient);
+  if (is(".wkt")) return read_wkt(file, bytes);
+  if (is(".svg")) return read_svg(file, bytes, settings.flattening);
+  return read_geojson(file, bytes);
+}
+
 }  // namespace
 
 Ring ring_of(std::span<const Eigen::Vector2d> corners) {
@@ -58,20 +74,14 @@ PolygonFile valid_polygons(Polygons polygons, bool repair, const std::string& pl
 }
 
 PolygonFile read_polygons(const std::filesystem::path& path, const PolygonReadSettings& settings) {
-  const std::string file = path.string(), ending = path.extension().string();
-  const auto is = [&](std::string_view name) { return equals_ignoring_case(ending, name); };
-  if (!is(".poly") && !is(".wkt") && !is(".geojson") && !is(".json") && !is(".svg")) {
-    throw InputError(file,
-                     ending.empty() ? "has no ending that names a polygon format"
-                                    : fmt::format("{} is not the ending of a polygon format", shown(ending)),
-                     "use .poly, .svg, .geojson, .json or .wkt");
-  }
-  const std::string bytes = read_bytes(path);
-  Polygons polygons = is(".poly")  ? read_poly(file, bytes, settings.lenient)
-                      : is(".wkt") ? read_wkt(file, bytes)
-                      : is(".svg") ? read_svg(file, bytes, settings.flattening)
-                                   : read_geojson(file, bytes);
-  return valid_polygons(std::move(polygons), settings.repair, file);
+  return valid_polygons(read_by_ending(path, settings), settings.repair, path.string());
+}
+
+Polygons read_parts(const std::filesystem::path& path, const PolygonReadSettings& settings) {
+  Polygons polygons = read_by_ending(path, settings);
+  check_finite(polygons, path.string());
+  normalise(polygons);
+  return polygons;
 }
 
 void write_geojson(const std::filesystem::path& path, std::span<const Polygon> polygons) {

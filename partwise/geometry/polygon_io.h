@@ -35,6 +35,10 @@ struct PolygonFile {
 
 PolygonFile read_polygons(const std::filesystem::path& path, const PolygonReadSettings& settings = {});
 
+// The polygons of a file as they stand, which may overlap or share sides: the parts of a decomposition. Rings are
+// turned as polygon.h says, nothing else is changed or checked.
+Polygons read_parts(const std::filesystem::path& path, const PolygonReadSettings& settings = {});
+
 // What read_polygons does once the rings are known: directions, validity, repair. `place` is named in messages.
 PolygonFile valid_polygons(Polygons polygons, bool repair, const std::string& place);
 

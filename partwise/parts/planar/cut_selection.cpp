@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <map>
 #include <mutex>
+#include <numeric>
 
 #include "partwise/base/error.h"
 #include "partwise/geometry/disjoint_sets.h"
+#include "partwise/parts/planar/cut_search.h"
 
 namespace partwise {
 namespace {
@@ -71,16 +73,16 @@ class Programme {
 };
 
 // Resolvers that may depend on each other: by conflicts, common diagonals or features.
-std::vector<std::vector<int>> components(const CutProblem& problem) {
+std::vector<std::vector<int>> components(const CutProblem& problem, const std::vector<int>& resolvers) {
   const int n = static_cast<int>(problem.resolvers.size());
   DisjointSets sets(static_cast<std::size_t>(n + problem.features + problem.diagonals));
-  for (int i = 0; i < n; ++i) {
+  for (int i : resolvers) {
     for (int feature : problem.resolvers[i].resolves) sets.join(i, n + feature);
     for (int diagonal : problem.resolvers[i].diagonals) sets.join(i, n + problem.features + diagonal);
   }
   for (const auto& [i, j] : problem.conflicts) sets.join(i, j);
   std::map<int, std::vector<int>> groups;
-  for (int i = 0; i < n; ++i) groups[sets.find(i)].push_back(i);
+  for (int i : resolvers) groups[sets.find(i)].push_back(i);
   std::vector<std::vector<int>> result;
   for (auto& [name, members] : groups) result.push_back(std::move(members));
   return result;
@@ -134,19 +136,6 @@ void solve_component(const CutProblem& problem, const std::vector<int>& members,
   }
 }
 
-// Resolvers of one and the same feature exclude each other: the best one is the solution.
-bool solve_alone(const CutProblem& problem, const std::vector<int>& members, std::vector<int>& chosen) {
-  int best = members[0];
-  for (int i : members) {
-    const Resolver &resolver = problem.resolvers[i], &least = problem.resolvers[best];
-    if (resolver.resolves.size() > 1 || resolver.feature != least.feature) return false;
-    const auto rank = [](const Resolver& r) { return std::pair(r.diagonals.size(), -r.score); };
-    if (rank(resolver) < rank(least)) best = i;
-  }
-  chosen.push_back(best);
-  return true;
-}
-
 }  // namespace
 
 bool in_conflict(const CutProblem& problem, int i, int j) {
@@ -156,10 +145,19 @@ bool in_conflict(const CutProblem& problem, int i, int j) {
                      [&](const auto& pair) { return pair == std::pair(i, j) || pair == std::pair(j, i); });
 }
 
-CutChoice select_cuts(const CutProblem& problem) {
+CutChoice select_cuts(const CutProblem& problem, int search_steps) {
   CutChoice choice;
-  for (const std::vector<int>& members : components(problem)) {
-    if (!solve_alone(problem, members, choice.resolvers)) solve_component(problem, members, choice.resolvers);
+  std::vector<int> resolvers(problem.resolvers.size());
+  std::iota(resolvers.begin(), resolvers.end(), 0);
+  const bool search = search_steps > 0 && problem.conflicts.empty();
+  if (search) resolvers = undominated_resolvers(problem);
+  for (const std::vector<int>& members : components(problem, resolvers)) {
+    const auto found = search ? search_cuts(problem, members, search_steps) : std::nullopt;
+    if (found) {
+      choice.resolvers.insert(choice.resolvers.end(), found->begin(), found->end());
+    } else {
+      solve_component(problem, members, choice.resolvers);
+    }
   }
   std::sort(choice.resolvers.begin(), choice.resolvers.end());
   std::vector<bool> resolved(static_cast<std::size_t>(problem.features));

@@ -7,7 +7,8 @@
 // large as possible. Conflicting are two resolvers of the same feature, two where one resolves the feature of the other
 // already, and pairs named in `conflicts` (crossing diagonals).
 //
-// Solved exactly, as a 0-1 programme for each connected component of the conflict graph, by CBC.
+// Solved exactly for each connected component of the conflict graph: by branch and bound, and as a 0-1 programme by CBC
+// where that takes more than a number of steps (0: always).
 #pragma once
 
 #include <utility>
@@ -36,6 +37,6 @@ struct CutChoice {
 
 bool in_conflict(const CutProblem& problem, int i, int j);
 
-CutChoice select_cuts(const CutProblem& problem);
+CutChoice select_cuts(const CutProblem& problem, int search_steps = 20000);
 
 }  // namespace partwise
