@@ -89,19 +89,24 @@ double outer_depth(const Ring& ring) {
   return depth;
 }
 
+// Of several farthest pairs (a square has two) the one that serves the hole best.
 double hole_depth(const Ring& ring) {
-  Eigen::Index a = 0, b = 0;
-  double farthest = -1;
+  double farthest = 0;
+  for (Eigen::Index i = 0; i < ring.rows(); ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) farthest = std::max(farthest, (ring.row(i) - ring.row(j)).norm());
+  }
+  double least = farthest;
   for (Eigen::Index i = 0; i < ring.rows(); ++i) {
     for (Eigen::Index j = 0; j < i; ++j) {
-      const double length = (ring.row(i) - ring.row(j)).norm();
-      if (length > farthest) farthest = length, a = i, b = j;
+      if ((ring.row(i) - ring.row(j)).norm() < farthest * (1 - 1e-9)) continue;
+      double depth = 0;
+      for (Eigen::Index k = 0; k < ring.rows(); ++k) {
+        depth = std::max(depth, distance(ring.row(k), ring.row(i), ring.row(j)));
+      }
+      least = std::min(least, depth);
     }
   }
-  double depth = 0;
-  for (Eigen::Index i = 0; i < ring.rows(); ++i)
-    depth = std::max(depth, distance(ring.row(i), ring.row(a), ring.row(b)));
-  return depth;
+  return least;
 }
 
 nlohmann::ordered_json judge(const Polygons& shape, const Polygons& parts) {
