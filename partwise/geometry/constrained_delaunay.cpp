@@ -129,17 +129,30 @@ void ConstrainedDelaunay::insert_point(int vertex) {
   set_neighbour(old.neighbour[1], t, second);
   set_neighbour(old.neighbour[2], t, third);
   at_[vertex] = first, at_[a] = second, at_[b] = third, at_[c] = first;
-  std::vector<std::pair<int, int>> edges{{a, b}, {b, c}, {c, a}};
+  std::vector<int> around{first, second, third};
   if (on_edge >= 0) {
-    const int flat = on_edge == 0 ? first : on_edge == 1 ? second : third;
-    const int across = triangles_[flat].neighbour[0];
-    const int p1 = triangles_[flat].v[1], p2 = triangles_[flat].v[2];
-    for (int v : triangles_[across].v) {
-      if (v != p1 && v != p2) edges.insert(edges.end(), {{p1, v}, {v, p2}});
-    }
+    const int flat = around[on_edge];
+    around.push_back(triangles_[flat].neighbour[0]);
     flip(flat, 0);
   }
-  legalise(edges);
+  // Every triangle has the new point at its corner 0; whatever it is flipped against gets it there too.
+  while (!around.empty()) {
+    const int at = around.back();
+    around.pop_back();
+    const Triangle& triangle = triangles_[at];
+    const int over = triangle.neighbour[0];
+    if (over < 0) continue;
+    const auto& [p0, p1, p2] = triangle.v;
+    int opposite = -1;
+    for (int v : triangles_[over].v) {
+      if (v != p1 && v != p2) opposite = v;
+    }
+    if (!inside_circle(points_[p0], points_[p1], points_[p2], points_[opposite])) continue;
+    if (side(p0, p1, opposite) <= 0 || side(opposite, p2, p0) <= 0) continue;  // not strictly convex
+    flip(at, 0);
+    around.push_back(at);
+    around.push_back(over);
+  }
   last_ = at_[vertex];
 }
 
@@ -226,6 +239,7 @@ ConstrainedDelaunay::Walk ConstrainedDelaunay::walk(int a, int b) const {
 
 bool ConstrainedDelaunay::insert_edge(int a, int b) {
   if (a == b) return true;
+  if (has_edge(a, b)) return insert_clear_edge(a, b);
   // Look first, so that nothing is changed in vain.
   std::vector<int> stops{a};
   while (stops.back() != b) {

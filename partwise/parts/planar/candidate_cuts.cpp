@@ -32,7 +32,8 @@ class Chooser {
     for (int r : choice.resolvers) {
       for (int d : problem_.resolvers[r].diagonals) chosen.insert(diagonals_[d]);
     }
-    return {{chosen.begin(), chosen.end()}, static_cast<int>(choice.unresolved.size())};
+    const auto is_cut = [&](int a, int b) { return chosen.contains(sorted(mesh_.point(a), mesh_.point(b))); };
+    return {{chosen.begin(), chosen.end()}, static_cast<int>(choice.unresolved.size()), mesh_.split(points_, is_cut)};
   }
 
  private:

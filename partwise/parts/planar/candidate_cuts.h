@@ -21,6 +21,7 @@ struct CutSettings {
 struct ChosenCuts {
   std::vector<IndexEdge> diagonals;  // indices of points, each once, smaller index first
   int unresolved = 0;                // features without a resolver among the chosen
+  std::vector<Region> pieces;        // split along them, noise holes filled
 };
 
 ChosenCuts choose_cuts(std::span<const Point2> points, const Region& region, const Complement& complement,

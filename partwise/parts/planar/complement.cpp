@@ -41,7 +41,8 @@ class Builder {
       : points_(points), region_(region), tolerance_(tolerance), decompose_(decompose) {}
 
   Complement build() {
-    for (const IndexRing& chain : hull_pockets(points_, region_.outer)) add_pocket(chain);
+    pockets_ = hull_pockets(points_, region_.outer);
+    for (const IndexRing& chain : pockets_) add_pocket(chain);
     for (std::size_t h = 0; h < region_.holes.size(); ++h) add_hole(static_cast<int>(h));
     find_features();
     simplify();
@@ -223,6 +224,7 @@ class Builder {
   Complement result_;
   std::unordered_map<int, int> antipodes_;  // of chambers with a pseudo bridge: its other end
   std::unordered_set<int> reflex_;
+  std::vector<IndexRing> pockets_;  // of the outer ring
 };
 
 }  // namespace

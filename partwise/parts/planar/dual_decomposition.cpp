@@ -39,9 +39,11 @@ class Decomposer {
     progress_("cutting", 0.5);
     const Complement complement = measure_complement(points_, region, settings_.tolerance,
                                                      [&](const Region& outside) { return decompose_outside(outside); });
-    const ChosenCuts chosen = choose_cuts(points_, region, complement, {settings_.tolerance, settings_.radius});
+    ChosenCuts chosen = choose_cuts(points_, region, complement, {settings_.tolerance, settings_.radius});
     if (depth_ == 0) unresolved += chosen.unresolved;
-    std::vector<Region> pieces = split_region(points_, region, complement.noise, chosen.diagonals);
+    const bool noisy = std::find(complement.noise.begin(), complement.noise.end(), true) != complement.noise.end();
+    std::vector<Region> pieces =
+        noisy ? split_region(points_, region, complement.noise, chosen.diagonals) : std::move(chosen.pieces);
     if (pieces.size() > 1) return pieces;
     // No resolver, or cuts that only open a ring: cut wherever the features allow it, and let joining take back.
     std::vector<int> features;
