@@ -49,6 +49,12 @@ int orientation(const Point2& a, const Point2& b, const Point2& c) {
   if (area > error) return 1;
   if (area < -error) return -1;
   Expansion exact;
+  const Point2 ac = a - c, bc = b - c;
+  if (ac + c == a && bc + c == b && a - ac == c && b - bc == c) {  // differences without rounding, as on pixel grids
+    exact.add_product(ac.x(), bc.y());
+    exact.add_product(-ac.y(), bc.x());
+    return exact.sign();
+  }
   exact.add_product(a.x(), b.y());
   exact.add_product(-a.x(), c.y());
   exact.add_product(-c.x(), b.y());

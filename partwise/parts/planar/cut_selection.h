@@ -37,6 +37,6 @@ struct CutChoice {
 
 bool in_conflict(const CutProblem& problem, int i, int j);
 
-CutChoice select_cuts(const CutProblem& problem, int search_steps = 20000);
+CutChoice select_cuts(const CutProblem& problem, int search_steps = 100000);
 
 }  // namespace partwise
