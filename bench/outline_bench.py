@@ -5,7 +5,7 @@
 
 Prints the count of shapes, of failures by kind, parts and times; with --list a line a shape; with --acd2d DIR the table of
 acd2d's published and measured figures beside ours at equal absolute tolerance. --noise decomposes a noisy version of each
-shape as well (outline_noise) and prints the Rand index between the two.
+shape as well (outline_noise) and prints the Rand index between the two, for outline_peer too.
 """
 
 import argparse
@@ -96,7 +96,21 @@ class Bench:
                 compared = run(self.bin / "partwise", "compare2d", clean, noisy_parts, "--json", "-")
                 if compared.returncode == 0:
                     row["rand_index"] = json.loads(compared.stdout)["rand_index"]
+                row["peer"] = self.peer(shape, noisy, Path(folder))
             return row
+
+    def peer(self, shape, noisy, folder):
+        """The same of outline_peer, which takes every hole for structure."""
+        row, outputs = {}, [folder / "peer_clean.geojson", folder / "peer_noisy.geojson"]
+        for name, given, parts in zip(("clean", "noisy"), (shape, noisy), outputs):
+            made = run(self.bin / "outline_peer", given, parts, "--tolerance", self.tolerance)
+            if made.returncode:
+                return {"wrong": made.stderr.strip()}
+            row[name] = json.loads(made.stdout)
+        compared = run(self.bin / "partwise", "compare2d", *outputs, "--json", "-")
+        if compared.returncode == 0:
+            row["rand_index"] = json.loads(compared.stdout)["rand_index"]
+        return row
 
 
 def summarise(rows, name):
@@ -154,6 +168,11 @@ def main():
         if rand:
             print(f"Rand index of clean and noisy, {len(rand)} shapes of at least 3 parts: mean {statistics.mean(rand):.4f}, "
                   f"least {min(rand):.4f}")
+        peer = [row["peer"] for row in rows if row["parts"] >= 3 and "rand_index" in row.get("peer", {})]
+        if peer:
+            mean = {kind: statistics.mean(row[kind]["parts"] for row in peer) for kind in ("clean", "noisy")}
+            print(f"  the peer on them: mean {statistics.mean(row['rand_index'] for row in peer):.4f}, parts clean "
+                  f"{mean['clean']:.2f}, noisy {mean['noisy']:.2f}")
     if options.json:
         Path(options.json).write_text("".join(json.dumps(row) + "\n" for row in rows))
     return 1 if any(row["wrong"] or row.get("noisy", {}).get("wrong") for row in rows) else 0

@@ -44,7 +44,9 @@ class Programme {
       for (const auto& [row, coefficient] : column) index.push_back(row), value.push_back(coefficient);
       start.push_back(static_cast<CoinBigIndex>(index.size()));
     }
-    const std::vector<double> zero(cost_.size(), 0), one(cost_.size(), 1);
+    std::vector<double> zero, one;
+    zero.resize(cost_.size());
+    for (std::size_t i = 0; i < cost_.size(); ++i) one.push_back(1);
     static std::mutex only_one;  // CBC's solver keeps state of its own beyond the model.
     const std::lock_guard lock(only_one);
     Cbc_Model* model = Cbc_newModel();

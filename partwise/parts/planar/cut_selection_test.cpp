@@ -107,7 +107,8 @@ TEST(CutSelection, ProgrammeTakesOverWhereTheSearchGivesUp) {
 
 // Figure 2.17: v is resolved by {vx, vz} or {vy}, x by {xv} or {xw}. The diagonal vx serves both features.
 TEST(CutSelection, SharedDiagonals) {
-  CutProblem problem{.features = 2, .diagonals = 4};  // v, x; vx 0, vz 1, vy 2, xw 3
+  CutProblem problem;  // features v, x; diagonals vx 0, vz 1, vy 2, xw 3
+  problem.features = 2, problem.diagonals = 4;
   problem.resolvers = {{0, {0, 1}, {0}, 1.0}, {0, {2}, {0}, 1.0}, {1, {0}, {0, 1}, 1.0}, {1, {3}, {1}, 9.0}};
   const CutChoice choice = select_cuts(problem);
   EXPECT_EQ(choice.resolvers, std::vector<int>{2});  // one diagonal resolves both
@@ -115,7 +116,8 @@ TEST(CutSelection, SharedDiagonals) {
 }
 
 TEST(CutSelection, WithoutResolversEveryFeatureStays) {
-  const CutProblem problem{.features = 3};
+  CutProblem problem;
+  problem.features = 3;
   EXPECT_EQ(select_cuts(problem).unresolved, (std::vector<int>{0, 1, 2}));
   EXPECT_TRUE(select_cuts({}).resolvers.empty());
 }

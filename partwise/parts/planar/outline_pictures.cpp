@@ -44,6 +44,10 @@ class Sheet {
     return fmt::format("{:.2f} {:.2f}", x, y);
   }
 
+  std::string line(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
+    return fmt::format("M{}L{}", point(a), point(b));
+  }
+
   std::string path(const Polygon& polygon) const {
     std::string data = ring(polygon.outer);
     for (const Ring& hole : polygon.holes) data += ring(hole);
@@ -53,8 +57,12 @@ class Sheet {
  private:
   std::string ring(const Ring& ring) const {
     std::string data;
-    for (Eigen::Index i = 0; i < ring.rows(); ++i) data += (i == 0 ? "M" : "L") + point(ring.row(i).transpose());
-    return data + "Z";
+    for (Eigen::Index i = 0; i < ring.rows(); ++i) {
+      data += i == 0 ? 'M' : 'L';
+      data += point(ring.row(i).transpose());
+    }
+    data += 'Z';
+    return data;
   }
 
   Eigen::AlignedBox2d box_;
@@ -93,7 +101,7 @@ void write_outline_svg(const std::filesystem::path& path, const Outline& outline
                    colours[colour[p]], sheet.path(outline.parts[p]));
   }
   std::string cuts;
-  for (const OutlineCut& cut : outline.cuts) cuts += "M" + sheet.point(cut.a) + "L" + sheet.point(cut.b);
+  for (const OutlineCut& cut : outline.cuts) cuts += sheet.line(cut.a, cut.b);
   if (!cuts.empty()) text += "<path fill=\"none\" stroke=\"#b5172f\" stroke-width=\"2\" d=\"" + cuts + "\"/>\n";
   write_file(path, text + "</svg>\n");
 }
@@ -108,7 +116,7 @@ void write_skeleton_svg(const std::filesystem::path& path, std::span<const Polyg
   }
   std::string bones;
   for (const auto& [a, b] : skeleton.edges) {
-    bones += "M" + sheet.point(skeleton.nodes[a].at) + "L" + sheet.point(skeleton.nodes[b].at);
+    bones += sheet.line(skeleton.nodes[a].at, skeleton.nodes[b].at);
   }
   text += "<path fill=\"none\" stroke=\"#1d3557\" stroke-width=\"3\" d=\"" + bones + "\"/>\n";
   for (const SkeletonNode& node : skeleton.nodes) {
