@@ -13,7 +13,6 @@ extern const Verb feature_verb;
 extern const Verb outline_verb;
 extern const Verb compare2d_verb;
 
-
 inline constexpr std::array verbs = {&decompose_verb, &evaluate_verb, &feature_verb, &outline_verb, &compare2d_verb};
 
 }  // namespace partwise::cli
