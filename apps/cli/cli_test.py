@@ -346,6 +346,74 @@ class Feature(CommandLine):
         self.assert_files("cubes.off", "flat.off")
 
 
+class Outline(CommandLine):
+    """The verbs for shapes in the plane."""
+
+    shapes = NOTCH.parents[1] / "data" / "outlines"
+
+    def outline(self, *arguments, shape="hole3.poly", tolerance=0.05):
+        return self.run_program("outline", self.shapes / shape, "--tolerance", tolerance, *arguments)
+
+    def test_every_output_is_there(self):
+        outputs = dict(parts="a.geojson", svg="a.svg", skeleton="b.svg")
+        arguments = [part for name, file in outputs.items() for part in ("--" + name, file)]
+        result = self.outline(*arguments, "--json", "a.json")
+        self.assert_done(result)
+        report = json.loads((self.folder / "a.json").read_text())
+        for field in "parts cuts holes_kept holes_noise concavity unresolved radius seconds".split():
+            self.assertIn(field, report)
+        self.assertEqual(report["files"], outputs)
+        self.assertEqual(report["holes_kept"] + report["holes_noise"], 3)
+        self.assertLessEqual(report["concavity"], 0.05)
+        parts = json.loads((self.folder / "a.geojson").read_text())["features"]
+        self.assertEqual(len(parts), report["parts"])
+
+        def twice_area(ring):
+            return sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(ring, ring[1:]))
+
+        total = sum(twice_area(ring) for part in parts for ring in part["geometry"]["coordinates"]) / 2
+        self.assertAlmostEqual(total / report["area"], 1, places=12)
+        for name in ("a.svg", "b.svg"):
+            self.assertTrue((self.folder / name).read_text().startswith("<svg"))
+
+    def test_same_bytes_again(self):
+        for name in ("a", "b"):
+            self.assert_done(self.outline("--parts", name + ".geojson", "--threads", 1 if name == "a" else 2, shape="neuron.poly"))
+        self.assertEqual((self.folder / "a.geojson").read_bytes(), (self.folder / "b.geojson").read_bytes())
+
+    def test_malformed_number_is_named_and_read_leniently(self):
+        self.assert_refused(self.outline(shape="bird.poly"), 1, "bird.poly:47", "-6.64248.788605")
+        self.assert_done(self.outline("--lenient", shape="bird.poly"))
+
+    def test_fewer_parts_than_acd2d_at_its_tolerance(self):
+        # 0.1 of acd2d's radius, which is 1.03 times the enclosing circle's here.
+        for shape, ratio, parts in (("mammoth.poly", 1.03, 10), ("hole3.poly", 1.18, 17), ("neuron.poly", 1.14, 41)):
+            result = self.outline("--json", "-", shape=shape, tolerance=0.1 * ratio)
+            self.assertLessEqual(json.loads(result.stdout)["parts"], parts)
+
+    def test_faults_are_repaired_or_refused(self):
+        bow = self.folder / "bow.wkt"
+        bow.write_text("POLYGON ((0 0, 4 4, 4 0, 0 4, 0 0))")
+        repaired = self.run_program("outline", bow, "--tolerance", 0.1, "--json", "-")
+        self.assertIn("(2, 2)", json.loads(repaired.stdout)["repaired"])
+        self.assert_refused(self.run_program("outline", bow, "--tolerance", 0.1, "--strict"), 1, "bow.wkt", "(2, 2)")
+
+    def test_wrong_usage(self):
+        self.assert_refused(self.run_program("outline", "a.poly"), 2, "--tolerance")
+        self.assert_refused(self.outline("--parts", "a.obj"), 2, ".geojson")
+        self.assert_refused(self.run_program("outline", "a.xyz", "--tolerance", 0.1), 1, "a.xyz")
+        self.assert_refused(self.run_program("compare2d", "a.geojson"), 2, "B")
+
+    def test_compare(self):
+        self.assert_done(self.outline("--parts", "a.geojson"))
+        self.assert_done(self.outline("--parts", "b.geojson", tolerance=0.3))
+        report = json.loads(self.run_program("compare2d", "a.geojson", "a.geojson", "--json", "-").stdout)
+        self.assertEqual((report["rand_index"], report["cluster_coverage"]), (1, 1))
+        report = json.loads(self.run_program("compare2d", "a.geojson", "b.geojson", "a.geojson", "--json", "-").stdout)
+        self.assertLess(report["rand_index_each"][0], 1)
+        self.assertEqual(report["rand_index_each"][1], 1)
+
+
 class Outputs(CommandLine):
     def test_bad_places_are_told_before_the_work(self):
         (self.folder / "a_folder").mkdir()

@@ -10,7 +10,9 @@ namespace partwise::cli {
 extern const Verb decompose_verb;
 extern const Verb evaluate_verb;
 extern const Verb feature_verb;
+extern const Verb outline_verb;
+extern const Verb compare2d_verb;
 
-inline constexpr std::array verbs = {&decompose_verb, &evaluate_verb, &feature_verb};
+inline constexpr std::array verbs = {&decompose_verb, &evaluate_verb, &feature_verb, &outline_verb, &compare2d_verb};
 
 }  // namespace partwise::cli

@@ -12,9 +12,9 @@
 #include <span>
 #include <vector>
 
-namespace partwise {
+#include "partwise/geometry/orientation.h"
 
-using Point2 = Eigen::Vector2d;
+namespace partwise {
 
 double distance_to_segment(const Point2& p, const Point2& a, const Point2& b);
 double segment_distance(const Point2& a, const Point2& b, const Point2& c, const Point2& d);

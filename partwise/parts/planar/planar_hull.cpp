@@ -20,7 +20,7 @@ std::vector<int> planar_hull(std::span<const Eigen::Vector2d> points) {
   std::vector<int> hull(2 * order.size());
   std::size_t k = 0;
   const auto push = [&](int i, std::size_t keep) {
-    while (k >= keep && cross(points[hull[k - 1]] - points[hull[k - 2]], points[i] - points[hull[k - 2]]) <= 0) --k;
+    while (k >= keep && orientation(points[hull[k - 2]], points[hull[k - 1]], points[i]) <= 0) --k;
     hull[k++] = i;
   };
   for (int i : order) push(i, 2);

@@ -1,5 +1,5 @@
 // The convex hull of points in the plane as indices, counter-clockwise, from the leftmost lowest point; points on an
-// edge of the hull and repeated points are left out (Andrew 1979). O(n log n).
+// edge of the hull and repeated points are left out (Andrew 1979). Exact. O(n log n).
 #pragma once
 
 #include <Eigen/Core>
@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-namespace partwise {
+#include "partwise/geometry/orientation.h"
 
-inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+namespace partwise {
 
 std::vector<int> planar_hull(std::span<const Eigen::Vector2d> points);
 

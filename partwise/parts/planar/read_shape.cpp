@@ -1,0 +1,43 @@
+#include "partwise/parts/planar/read_shape.h"
+
+#include <algorithm>
+#include <cctype>
+#include <vector>
+
+#include "partwise/base/error.h"
+#include "partwise/geometry/contours.h"
+#include "partwise/imaging/png.h"
+
+namespace partwise {
+namespace {
+
+bool is_png(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending == ".png";
+}
+
+std::vector<float> coverage(const Image& image) {
+  std::vector<float> values(static_cast<std::size_t>(image.width) * image.height);
+  const bool colour = image.channels >= 3, alpha = image.channels % 2 == 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const float* pixel = image.values.data() + i * image.channels;
+    const float luminance = colour ? 0.2126f * pixel[0] + 0.7152f * pixel[1] + 0.0722f * pixel[2] : pixel[0];
+    values[i] = srgb_from_linear(luminance) * (alpha ? pixel[image.channels - 1] : 1);
+  }
+  return values;
+}
+
+}  // namespace
+
+PolygonFile read_shape(const std::filesystem::path& path, const PolygonReadSettings& settings) {
+  if (!is_png(path)) return read_polygons(path, settings);
+  const Image image = read_png(path);
+  Polygons polygons = trace_contours(coverage(image), image.width, image.height);
+  if (polygons.empty()) {
+    throw InputError(path.string(), "has no pixel above one half", "paint the inside white, the outside black");
+  }
+  return valid_polygons(std::move(polygons), settings.repair, path.string());
+}
+
+}  // namespace partwise

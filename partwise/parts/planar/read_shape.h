@@ -1,0 +1,17 @@
+// A shape in the plane from any file that the planar room takes: polygon files (geometry/polygon_io.h) and masks.
+//
+// A mask is a PNG. A pixel counts by its luminance as coded (0 to 1), times its alpha; what is above one half is
+// inside, and the outline runs at one half between pixels, in pixel coordinates, y down (geometry/contours.h).
+//
+// Errors: InputError, also for a mask that is empty.
+#pragma once
+
+#include <filesystem>
+
+#include "partwise/geometry/polygon_io.h"
+
+namespace partwise {
+
+PolygonFile read_shape(const std::filesystem::path& path, const PolygonReadSettings& settings = {});
+
+}  // namespace partwise
