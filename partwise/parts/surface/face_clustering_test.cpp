@@ -51,7 +51,7 @@ TEST(FaceClustering, CutsADumbbellIntoTwoBallsAndARod) {
     const double z = middle(mesh, f)[2], joint = 1.5 - std::sqrt(1 - 0.25 * 0.25);
     truth.push_back(std::abs(z) < joint ? 0 : z < 0 ? 1 : 2);
   }
-  EXPECT_LT(rand_error(result.labels, truth), 0.02);
+  EXPECT_LT(rand_error(result.labels, truth), 0.03);
 }
 
 TEST(FaceClustering, AgreesWithCgalOnTheSameValues) {

@@ -14,6 +14,7 @@ namespace partwise {
 namespace {
 
 constexpr int kLloydRounds = 20;
+constexpr Eigen::Index kSeedPoints = 2000;  // restarts are tried on about so many of the points, evenly spaced
 
 void check(const Eigen::MatrixXd& points, const Eigen::VectorXd& weights, const MixtureSettings& settings) {
   if (settings.components < 1) {
@@ -96,6 +97,21 @@ Grouping lloyd(const Eigen::MatrixXd& points, const Eigen::VectorXd& weights, Ei
   return grouping;
 }
 
+Grouping group_points(const Eigen::MatrixXd& points, const Eigen::VectorXd& weights, const MixtureSettings& settings) {
+  const Eigen::Index step = std::max<Eigen::Index>(1, points.rows() / kSeedPoints);
+  const auto sample = Eigen::seq(0, points.rows() - 1, step);
+  const Eigen::MatrixXd some = points(sample, Eigen::all);
+  Eigen::VectorXd some_weights = weights(sample);
+  if (!(some_weights.sum() > 0)) some_weights.setOnes();
+  std::mt19937_64 random(settings.seed);
+  Grouping best;
+  for (int restart = 0; restart < settings.restarts; ++restart) {
+    Grouping grouping = lloyd(some, some_weights, spread_centres(some, some_weights, settings.components, random));
+    if (grouping.cost < best.cost) best = std::move(grouping);
+  }
+  return step == 1 ? best : lloyd(points, weights, std::move(best.centres));
+}
+
 void maximise(const Eigen::MatrixXd& points, const Eigen::VectorXd& weights, const Eigen::MatrixXd& responsibilities,
               double least_deviation, GaussianMixture& mixture) {
   const Eigen::MatrixXd weighted = responsibilities.array().colwise() * weights.array();
@@ -155,12 +171,7 @@ GaussianMixture fit_mixture(const Eigen::MatrixXd& points, const Eigen::VectorXd
                             const MixtureSettings& settings) {
   check(points, weights, settings);
   const Eigen::VectorXd own = weights.size() == 0 ? Eigen::VectorXd::Ones(points.rows()) : weights;
-  std::mt19937_64 random(settings.seed);
-  Grouping best;
-  for (int restart = 0; restart < settings.restarts; ++restart) {
-    Grouping grouping = lloyd(points, own, spread_centres(points, own, settings.components, random));
-    if (grouping.cost < best.cost) best = std::move(grouping);
-  }
+  const Grouping best = group_points(points, own, settings);
   GaussianMixture mixture;
   mixture.means = best.centres;
   mixture.deviations = Eigen::MatrixXd::Constant(best.centres.rows(), points.cols(), settings.least_deviation);

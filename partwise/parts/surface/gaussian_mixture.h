@@ -16,8 +16,8 @@ namespace partwise {
 struct MixtureSettings {
   int components = 5;
   int restarts = 15;              // of k-means++
-  int iterations = 100;           // of the maximisation, at most
-  double convergence = 1e-6;      // stop when the mean log-likelihood gains less
+  int iterations = 50;            // of the maximisation, at most
+  double convergence = 1e-4;      // stop when the mean log-likelihood gains less
   double least_deviation = 1e-3;  // in units of the points; keeps equal points from becoming infinitely likely
   std::uint64_t seed = 0;
 };
