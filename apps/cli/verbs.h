@@ -10,7 +10,8 @@ namespace partwise::cli {
 extern const Verb decompose_verb;
 extern const Verb evaluate_verb;
 extern const Verb feature_verb;
+extern const Verb segment_verb;
 
-inline constexpr std::array verbs = {&decompose_verb, &evaluate_verb, &feature_verb};
+inline constexpr std::array verbs = {&decompose_verb, &feature_verb, &segment_verb, &evaluate_verb};
 
 }  // namespace partwise::cli
