@@ -10,6 +10,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,12 @@
 namespace {
 
 using namespace partwise;
+
+const std::map<std::string, SurfaceFeature> features = {{"cvf", SurfaceFeature::visibility},
+                                                        {"cvf-avg", SurfaceFeature::visibility_average},
+                                                        {"cvf-strong", SurfaceFeature::visibility_strong},
+                                                        {"cvf-weak", SurfaceFeature::visibility_weak},
+                                                        {"sdf", SurfaceFeature::shape_diameter}};
 
 struct Options {
   std::string feature;
@@ -44,7 +51,7 @@ void sweep_mesh(const std::filesystem::path& file, const Options& options) {
   if (people.empty()) return;
   const Mesh mesh = read_mesh(file);
   const std::vector<double> areas(static_cast<std::size_t>(mesh.faces.rows()), 1.0);  // Rand errors count faces
-  SegmentationSettings settings{.feature = SurfaceFeature::shape_diameter};
+  SegmentationSettings settings{.feature = features.at(options.feature)};
   const Eigen::MatrixXd values = feature_values(mesh, settings.feature);
   for (const int clusters : options.clusters) {
     for (const double smoothness : options.smoothness) {
@@ -68,7 +75,7 @@ void sweep_mesh(const std::filesystem::path& file, const Options& options) {
 int main(int count, char** words) {
   Options options;
   CLI::App app("Rand errors of one feature's segmentations for many settings, a JSON line each");
-  app.add_option("FEATURE", options.feature)->required()->check(CLI::IsMember({"sdf"}));
+  app.add_option("FEATURE", options.feature)->required()->check(CLI::IsMember(features));
   app.add_option("MESHES_DIR", options.meshes)->required()->check(CLI::ExistingDirectory);
   app.add_option("SEG_DIR", options.people)->required()->check(CLI::ExistingDirectory);
   app.add_option("--clusters", options.clusters)->required()->delimiter(',');

@@ -340,6 +340,12 @@ class Segment(CommandLine):
         wrong = sum(int(label) != part for label, part in zip(labels, self.parts))
         self.assertLess(wrong, 0.05 * len(labels))
 
+    def test_every_feature(self):
+        for kind in ("cvf", "cvf-avg", "cvf-strong", "cvf-weak", "sdf"):
+            report = json.loads(self.run_program("segment", "bar.off", "--feature", kind, "--json", "-").stdout)
+            self.assertEqual(report["feature"], kind)
+            self.assertGreater(report["parts"], 1, kind)
+
     def test_the_two_numbers_decide(self):
         report = json.loads(self.segment("--clusters", "1", "--json", "-").stdout)
         self.assertEqual(report["parts"], 1)

@@ -21,7 +21,11 @@ struct Options {
   SegmentationSettings settings;
 };
 
-const Choices<SurfaceFeature> features = {{"sdf", SurfaceFeature::shape_diameter}};
+const Choices<SurfaceFeature> features = {{"cvf", SurfaceFeature::visibility},
+                                          {"cvf-avg", SurfaceFeature::visibility_average},
+                                          {"cvf-strong", SurfaceFeature::visibility_strong},
+                                          {"cvf-weak", SurfaceFeature::visibility_weak},
+                                          {"sdf", SurfaceFeature::shape_diameter}};
 
 std::string feature_name(SurfaceFeature feature) {
   for (const auto& [name, meaning] : features)
@@ -71,7 +75,11 @@ Action add(CLI::App& command) {
   command.add_option("MESH", options->mesh, "The mesh: .off, .obj, .ply, .stl, .gltf or .glb")
       ->required()
       ->type_name("");
-  add_choice(command, "--feature", settings.feature, features, "sdf: the shape diameter, how thick the solid is")
+  add_choice(
+      command, "--feature", settings.feature, features,
+      "cvf-avg: area that is continuously visible, averaged with the other side of the wall, the closest to people; "
+      "cvf, "
+      "cvf-strong, cvf-weak: its other kinds (see partwise feature); sdf: shape diameter, how thick the solid is")
       ->required();
   add_count(command, "--clusters", settings.clusters, 1,
             "Levels of the feature that are told apart; left out: what was fitted to people's segmentations");
@@ -92,8 +100,8 @@ const Verb segment_verb = {
         "bends.\n"
         "Every part is connected; one cluster may give many parts (the legs of a chair).",
     .example =
-        "  partwise segment chair.off --feature sdf --labels chair.seg --glb chair_parts.glb\n"
-        "  partwise segment chair.off --feature sdf --clusters 3 --smoothness 20 --json -",
+        "  partwise segment chair.off --feature cvf-avg --labels chair.seg --glb chair_parts.glb\n"
+        "  partwise segment chair.off --feature cvf-avg --clusters 3 --smoothness 20 --json -",
     .add = add,
 };
 

@@ -12,6 +12,7 @@
 #include "partwise/base/error.h"
 #include "partwise/geometry/subdivide.h"
 #include "partwise/geometry/test_shapes.h"
+#include "partwise/parts/surface/continuous_visibility.h"
 #include "partwise/parts/surface/face_values.h"
 #include "partwise/parts/surface/shape_diameter.h"
 #include "partwise/parts/surface/test_surfaces.h"
@@ -97,7 +98,7 @@ TEST(FaceClustering, LengthsAndAreasAreInUnitsOfTheirMeans) {
   Mesh doubled = mesh;
   doubled.vertices *= 2;
   const ClusteringSettings sized{.clusters = 3, .by_length = true, .by_area = true};
-  const Eigen::VectorXd values = face_values(mesh, mesh.vertices.col(0));
+  const Eigen::VectorXd values = face_means(mesh, mesh.vertices.col(0));
   EXPECT_EQ(cluster_faces(mesh, values, sized).labels, cluster_faces(doubled, values, sized).labels);
 }
 

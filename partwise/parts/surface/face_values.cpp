@@ -71,15 +71,6 @@ Eigen::VectorXd face_areas(const Mesh& mesh) {
   return areas;
 }
 
-Eigen::VectorXd face_values(const Mesh& mesh, const Eigen::VectorXd& vertex_values) {
-  Eigen::VectorXd values(mesh.faces.rows());
-  for (Eigen::Index f = 0; f < values.size(); ++f) {
-    values[f] =
-        (vertex_values[mesh.faces(f, 0)] + vertex_values[mesh.faces(f, 1)] + vertex_values[mesh.faces(f, 2)]) / 3;
-  }
-  return values;
-}
-
 Eigen::Index fill_missing(const FaceAdjacency& adjacency, Eigen::VectorXd& values) {
   std::vector<int> missing;
   for (Eigen::Index f = 0; f < values.size(); ++f)

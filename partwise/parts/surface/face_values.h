@@ -1,4 +1,4 @@
-// Scalars on the faces of a mesh: from vertices, filled in where they are missing, smoothed, normalised.
+// Scalars on the faces of a mesh: filled in where they are missing, smoothed, normalised.
 //
 // Faces are neighbours when they share an edge (topology.h). All values are vectors of one entry a face.
 #pragma once
@@ -11,9 +11,6 @@
 namespace partwise {
 
 Eigen::VectorXd face_areas(const Mesh& mesh);
-
-// The mean of the three corners.
-Eigen::VectorXd face_values(const Mesh& mesh, const Eigen::VectorXd& vertex_values);
 
 // Replaces NaN by the mean of the neighbours that have a value, ring by ring from those inwards. A piece of the mesh
 // without any value gets the smallest value of all, and 0 if there is none at all. Returns how many were missing.

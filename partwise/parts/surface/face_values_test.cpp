@@ -26,16 +26,6 @@ TEST(FaceValues, AreasSumToTheSurface) {
   EXPECT_DOUBLE_EQ(face_areas(strip(7)).sum(), 3.5);
 }
 
-TEST(FaceValues, LinearValuesBecomeThoseOfTheMiddle) {
-  const Mesh mesh = test::torus(2, 1, 12, 8);
-  const Eigen::VectorXd heights = mesh.vertices * Eigen::Vector3d(1, 2, 3);
-  const Eigen::VectorXd values = face_values(mesh, heights);
-  for (Eigen::Index f = 0; f < values.size(); ++f) {
-    const Point middle = mesh.vertices(mesh.faces.row(f), Eigen::all).colwise().mean();
-    EXPECT_NEAR(values[f], middle.dot(Point(1, 2, 3)), 1e-12);
-  }
-}
-
 TEST(FaceValues, MissingOnesAreFilledFromTheirNeighboursInwards) {
   Eigen::VectorXd values(7);
   values << 1, kNone, kNone, kNone, kNone, kNone, 5;

@@ -3,7 +3,9 @@
 #include <chrono>
 #include <utility>
 
+#include "partwise/parts/surface/continuous_visibility.h"
 #include "partwise/parts/surface/face_clustering.h"
+#include "partwise/parts/surface/face_values.h"
 #include "partwise/parts/surface/shape_diameter.h"
 
 namespace partwise {
@@ -12,9 +14,21 @@ int fitted_clusters(SurfaceFeature) { return 5; }
 double fitted_smoothness(SurfaceFeature) { return 26; }
 
 Eigen::MatrixXd feature_values(const Mesh& mesh, SurfaceFeature feature, const Progress& progress) {
+  const auto visibility = [&](VisibilityKind kind) {
+    const Eigen::VectorXd values = continuous_visibility(mesh, {.kind = kind}, progress).values;
+    return smooth_bilaterally(face_adjacency(mesh), face_means(mesh, values), default_window(mesh.faces.rows()));
+  };
   switch (feature) {
     case SurfaceFeature::shape_diameter:
       return shape_diameter(mesh, {}, progress).values;
+    case SurfaceFeature::visibility:
+      return visibility(VisibilityKind::cvf);
+    case SurfaceFeature::visibility_average:
+      return visibility(VisibilityKind::avg);
+    case SurfaceFeature::visibility_strong:
+      return visibility(VisibilityKind::strong);
+    case SurfaceFeature::visibility_weak:
+      return visibility(VisibilityKind::weak);
   }
   throw InputError("feature", "it is none that is known", "give one of SurfaceFeature");
 }

@@ -22,10 +22,14 @@ namespace partwise {
 
 enum class SurfaceFeature {
   shape_diameter,  // shape_diameter.h
+  visibility,      // continuous_visibility.h, the kinds cvf, avg, strong and weak
+  visibility_average,
+  visibility_strong,
+  visibility_weak,
 };
 
 struct SegmentationSettings {
-  SurfaceFeature feature = SurfaceFeature::shape_diameter;
+  SurfaceFeature feature = SurfaceFeature::visibility_average;
   int clusters = 0;        // 0: fitted_clusters
   double smoothness = -1;  // ClusteringSettings::smoothness; below 0: fitted_smoothness
   std::uint64_t seed = 0;
