@@ -412,6 +412,88 @@ class Outline(CommandLine):
         report = json.loads(self.run_program("compare2d", "a.geojson", "b.geojson", "a.geojson", "--json", "-").stdout)
         self.assertLess(report["rand_index_each"][0], 1)
         self.assertEqual(report["rand_index_each"][1], 1)
+class Segment(CommandLine):
+    def setUp(self):
+        """Two cubes of side 4 and a thin bar from one to the other, as quads of side 1."""
+        super().setUp()
+        solid = {(x, y, z) for x in range(4) for y in range(4) for z in range(4)}
+        solid |= {(x + 10, y, z) for x, y, z in solid} | {(x, 1, 1) for x in range(4, 10)}
+        points, faces, self.parts = {}, [], []
+        for cell in sorted(solid):
+            for axis in range(3):
+                for up in (0, 1):
+                    beside = tuple(c + (2 * up - 1) * (k == axis) for k, c in enumerate(cell))
+                    if beside in solid:
+                        continue
+                    corners = []
+                    for u, v in ((0, 0), (1, 0), (1, 1), (0, 1)) if up else ((0, 0), (0, 1), (1, 1), (1, 0)):
+                        corner = list(cell)
+                        corner[axis] += up
+                        corner[(axis + 1) % 3] += u
+                        corner[(axis + 2) % 3] += v
+                        corners.append(points.setdefault(tuple(corner), len(points)))
+                    faces.append(corners)
+                    self.parts += [0 if cell[0] < 4 else 1 if cell[0] < 10 else 2] * 2
+        lines = ["OFF", f"{len(points)} {len(faces)} 0"]
+        lines += [f"{x} {y} {z}" for x, y, z in points] + ["4 " + " ".join(map(str, face)) for face in faces]
+        (self.folder / "bar.off").write_text("\n".join(lines) + "\n")
+
+    def segment(self, *arguments):
+        return self.run_program("segment", "bar.off", "--feature", "sdf", *arguments)
+
+    def test_every_output_is_there(self):
+        result = self.segment("--clusters", "2", "--labels", "a.seg", "--glb", "a.glb", "--json", "a.json")
+        self.assert_done(result)
+        self.assertRegex(result.stdout, r"^bar\.off: 3 parts by sdf \(2 clusters, smoothness [0-9.]+\)\nwrote a.seg, a.glb\n$")
+        self.assert_files("bar.off", "a.seg", "a.glb", "a.json")
+        report = json.loads((self.folder / "a.json").read_text())
+        self.assertEqual(list(report), "parts clusters smoothness feature faces input files seconds".split())
+        self.assertEqual((report["parts"], report["clusters"], report["feature"]), (3, 2, "sdf"))
+        self.assertEqual(report["faces"], len(self.parts))
+        for stage in ("read", "feature", "cluster", "write", "total"):
+            self.assertGreaterEqual(report["seconds"][stage], 0)
+        labels = (self.folder / "a.seg").read_text().split()
+        self.assertEqual(len(labels), len(self.parts))
+        wrong = sum(int(label) != part for label, part in zip(labels, self.parts))
+        self.assertLess(wrong, 0.05 * len(labels))
+
+    def test_every_feature(self):
+        for kind in ("cvf", "cvf-avg", "cvf-strong", "cvf-weak", "sdf"):
+            report = json.loads(self.run_program("segment", "bar.off", "--feature", kind, "--json", "-").stdout)
+            self.assertEqual(report["feature"], kind)
+            self.assertGreater(report["parts"], 1, kind)
+
+    def test_the_two_numbers_decide(self):
+        report = json.loads(self.segment("--clusters", "1", "--json", "-").stdout)
+        self.assertEqual(report["parts"], 1)
+        report = json.loads(self.segment("--smoothness", "1e6", "--json", "-").stdout)
+        self.assertEqual((report["parts"], report["smoothness"]), (1, 1e6))
+
+    def test_same_bytes_for_any_number_of_threads(self):
+        for threads in ("1", "3"):
+            self.assert_done(self.segment("--labels", f"{threads}.seg", "--threads", threads))
+        self.assertEqual((self.folder / "1.seg").read_bytes(), (self.folder / "3.seg").read_bytes())
+
+    def test_what_cannot_be_done(self):
+        (self.folder / "flat.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n")
+        result = self.run_program("segment", "flat.off", "--feature", "sdf", "--labels", "a.seg")
+        self.assert_refused(result, 1, "flat.off: no face has an area")
+        cases = [
+            ((), "--feature"),
+            (("--feature", "hue"), "sdf"),
+            (("--feature", "sdf", "--clusters", "0"), "--clusters"),
+            (("--feature", "sdf", "--smoothness", "-1"), "--smoothness"),
+            (("--feature", "sdf", "--glb", "a.off"), ".glb"),
+        ]
+        for arguments, word in cases:
+            self.assert_refused(self.run_program("segment", "bar.off", *arguments), 2, word, "--help")
+        self.assert_files("bar.off", "flat.off")
+
+    def test_help_teaches_with_an_example(self):
+        result = self.run_program("segment", "--help")
+        self.assert_done(result)
+        for word in ("Example:\n", "--feature", "--clusters", "--smoothness", "--labels", "--glb"):
+            self.assertIn(word, result.stdout)
 
 
 class Outputs(CommandLine):

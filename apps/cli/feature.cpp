@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -29,12 +28,6 @@ const Choices<VisibilityMethod> methods = {{"filter", VisibilityMethod::filter},
                                            {"bfs", VisibilityMethod::bfs},
                                            {"bfs-plain", VisibilityMethod::bfs_plain},
                                            {"filter-printed", VisibilityMethod::filter_printed}};
-
-template <typename Value>
-std::string name_of(const Choices<Value>& choices, Value value) {
-  return std::find_if(choices.begin(), choices.end(), [&](const auto& choice) { return choice.second == value; })
-      ->first;
-}
 
 void report(const Options& options, const VisibilityFeature& feature, Run& run) {
   nlohmann::ordered_json& json = run.report;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -42,6 +43,13 @@ CLI::Option* add_choice(CLI::App& command, const std::string& option, Value& val
     refuse_choice(option, word, all);
   };
   return command.add_option_function<std::string>(option, choose, help)->type_name(all);
+}
+
+// The word that means `value`, one of the choices.
+template <typename Value>
+std::string name_of(const Choices<Value>& choices, Value value) {
+  return std::find_if(choices.begin(), choices.end(), [&](const auto& choice) { return choice.second == value; })
+      ->first;
 }
 
 }  // namespace partwise::cli

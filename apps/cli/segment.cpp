@@ -1,0 +1,100 @@
+// partwise segment: partwise::segment with files.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "mesh_errors.h"
+#include "options.h"
+#include "part_meshes.h"
+#include "partwise/geometry/mesh_io.h"
+#include "partwise/parts/surface/segmentation.h"
+#include "verbs.h"
+
+namespace partwise::cli {
+namespace {
+
+struct Options {
+  std::string mesh, labels, glb;
+  SegmentationSettings settings;
+};
+
+const Choices<SurfaceFeature> features = {{"cvf", SurfaceFeature::visibility},
+                                          {"cvf-avg", SurfaceFeature::visibility_average},
+                                          {"cvf-strong", SurfaceFeature::visibility_strong},
+                                          {"cvf-weak", SurfaceFeature::visibility_weak},
+                                          {"sdf", SurfaceFeature::shape_diameter}};
+
+void report(const Options& options, const Segmentation& result, Run& run) {
+  nlohmann::ordered_json& json = run.report;
+  json["parts"] = result.parts;
+  json["clusters"] = result.clusters;
+  json["smoothness"] = result.smoothness;
+  json["feature"] = name_of(features, options.settings.feature);
+  json["faces"] = result.labels.size();
+  json["input"] = options.mesh;
+  json["files"] = nlohmann::ordered_json::object();
+  std::string written;
+  for (const auto& [name, file] : {std::pair("labels", &options.labels), std::pair("glb", &options.glb)}) {
+    if (file->empty()) continue;
+    json["files"][name] = *file;
+    written += (written.empty() ? "\nwrote " : ", ") + *file;
+  }
+  run.summary = fmt::format("{}: {} part{} by {} ({} clusters, smoothness {:.4g}){}", options.mesh, result.parts,
+                            result.parts == 1 ? "" : "s", name_of(features, options.settings.feature), result.clusters,
+                            result.smoothness, written);
+}
+
+void segment_files(const Options& options, Run& run) {
+  run.outputs.add_input("MESH", options.mesh);
+  if (!options.labels.empty()) run.outputs.add("--labels", options.labels);
+  if (!options.glb.empty()) run.outputs.add("--glb", options.glb, {".glb"});
+  const Mesh mesh = run.stage("read", [&] { return read_mesh(options.mesh); });
+  SegmentationSettings settings = options.settings;
+  settings.seed = run.seed;
+  const Segmentation result = naming_mesh(options.mesh, [&] { return segment(mesh, settings, run.progress); });
+  for (const auto& [stage, seconds] : result.seconds) run.seconds[stage] = seconds;
+  run.stage("write", [&] {
+    if (!options.labels.empty()) write_labels(run.outputs.staged("--labels"), result.labels);
+    if (!options.glb.empty()) write_meshes(run.outputs.staged("--glb"), part_meshes(mesh, result.labels, result.parts));
+  });
+  report(options, result, run);
+}
+
+Action add(CLI::App& command) {
+  const auto options = std::make_shared<Options>();
+  SegmentationSettings& settings = options->settings;
+  add_mesh(command, options->mesh);
+  add_choice(
+      command, "--feature", settings.feature, features,
+      "cvf-avg: area that is continuously visible, averaged with the other side of the wall, the closest to people; "
+      "cvf, "
+      "cvf-strong, cvf-weak: its other kinds (see partwise feature); sdf: shape diameter, how thick the solid is")
+      ->required();
+  add_count(command, "--clusters", settings.clusters, 1,
+            "Levels of the feature that are told apart; left out: what was fitted to people's segmentations");
+  add_positive(command, "--smoothness", settings.smoothness,
+               "How dear borders between parts are; more gives fewer parts; left out: what was fitted");
+  add_file(command, "--labels", options->labels, "Write the part of each face, one a line (.seg)");
+  add_file(command, "--glb", options->glb, "Write the parts, coloured, one node each (.glb)");
+  return [options](Run& run) { segment_files(*options, run); };
+}
+
+}  // namespace
+
+const Verb segment_verb = {
+    .name = "segment",
+    .summary = "Parts of a mesh as people would cut it, from a feature of its surface",
+    .details =
+        "Computes a feature of the surface, clusters its values, and cuts between the clusters where the surface "
+        "bends.\n"
+        "Every part is connected; one cluster may give many parts (the legs of a chair).",
+    .example =
+        "  partwise segment chair.off --feature cvf-avg --labels chair.seg --glb chair_parts.glb\n"
+        "  partwise segment chair.off --feature cvf-avg --clusters 3 --smoothness 20 --json -",
+    .add = add,
+};
+
+}  // namespace partwise::cli

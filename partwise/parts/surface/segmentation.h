@@ -1,0 +1,58 @@
+// Segments of a mesh, as people would cut it, from a feature of its surface (section 2.2.4.2).
+//
+// A feature is computed a face, smoothed on the graph of faces, and clustered (face_clustering.h). Two numbers decide:
+// how many clusters, and how dear borders between them are; both have values that were fitted to the Princeton
+// benchmark, one pair for all meshes. docs/segment.md says how.
+//
+// Any triangle mesh with a face of positive area, faces counter-clockwise from outside. Deterministic for a seed, the
+// same for any number of threads. Errors: InputError.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "partwise/base/progress.h"
+#include "partwise/geometry/mesh.h"
+
+namespace partwise {
+
+enum class SurfaceFeature {
+  shape_diameter,  // shape_diameter.h
+  visibility,      // continuous_visibility.h, the kinds cvf, avg, strong and weak
+  visibility_average,
+  visibility_strong,
+  visibility_weak,
+};
+
+struct SegmentationSettings {
+  SurfaceFeature feature = SurfaceFeature::visibility_average;
+  int clusters = 0;        // 0: fitted_clusters
+  double smoothness = -1;  // ClusteringSettings::smoothness; below 0: fitted_smoothness
+  std::uint64_t seed = 0;
+};
+
+// What was fitted for a feature.
+int fitted_clusters(SurfaceFeature feature);
+double fitted_smoothness(SurfaceFeature feature);
+
+struct Segmentation {
+  std::vector<int> labels;  // a face, 0 .. parts - 1; each part is connected, numbered by its first face
+  int parts = 0;
+  Eigen::MatrixXd values;  // of the feature, a row a face, as they were clustered
+  int clusters = 0;        // the settings in use
+  double smoothness = 0;
+  std::vector<std::pair<std::string, double>> seconds;  // by stage, wall time
+};
+
+Segmentation segment(const Mesh& mesh, const SegmentationSettings& settings = {}, const Progress& progress = {});
+
+// Its two stages, for whoever tries several settings on one mesh: the values that are clustered, m x 1, and the
+// clustering of any such values, which may also have several columns.
+Eigen::MatrixXd feature_values(const Mesh& mesh, SurfaceFeature feature, const Progress& progress = {});
+Segmentation segment_values(const Mesh& mesh, const Eigen::MatrixXd& values, const SegmentationSettings& settings = {});
+
+}  // namespace partwise

@@ -1,0 +1,61 @@
+#include "partwise/parts/surface/segmentation.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+
+#include "partwise/base/error.h"
+#include "partwise/parts/surface/continuous_visibility.h"
+#include "partwise/parts/surface/segmentation_measures.h"
+#include "partwise/parts/surface/test_surfaces.h"
+
+namespace partwise {
+namespace {
+
+// Which of the two balls or the rod of test::dumbbell each face belongs to.
+std::vector<int> dumbbell_parts(const Mesh& mesh) {
+  const Eigen::VectorXd heights = face_means(mesh, mesh.vertices.col(2));
+  std::vector<int> parts;
+  for (double z : heights) parts.push_back(std::abs(z) < 1.5 - std::sqrt(1 - 0.25 * 0.25) ? 0 : z < 0 ? 1 : 2);
+  return parts;
+}
+
+TEST(Segmentation, CutsADumbbellAsPeopleWould) {
+  const Mesh mesh = test::dumbbell(60, 40);
+  for (const auto feature : {SurfaceFeature::shape_diameter, SurfaceFeature::visibility,
+                             SurfaceFeature::visibility_average, SurfaceFeature::visibility_strong}) {
+    const Segmentation result = segment(mesh, {.feature = feature, .clusters = 2});
+    EXPECT_EQ(result.parts, 3);
+    EXPECT_LT(SegmentationComparison(mesh, result.labels).against(dumbbell_parts(mesh)).rand_error, 0.03);
+  }
+}
+
+TEST(Segmentation, TakesTheFittedPairUnlessToldOtherwise) {
+  const Mesh mesh = test::dumbbell(20, 12);
+  const Segmentation fitted = segment(mesh);
+  EXPECT_EQ(fitted.clusters, fitted_clusters(SurfaceFeature::visibility_average));
+  EXPECT_EQ(fitted.smoothness, fitted_smoothness(SurfaceFeature::visibility_average));
+  const Segmentation told = segment(mesh, {.clusters = fitted.clusters, .smoothness = fitted.smoothness});
+  EXPECT_EQ(told.labels, fitted.labels);
+  EXPECT_EQ(segment(mesh, {.clusters = 1}).parts, 1);
+  EXPECT_EQ(segment(mesh, {.clusters = 2, .smoothness = 1e6}).parts, 1);
+  EXPECT_THROW(segment(mesh, {.clusters = -1}), InputError);
+}
+
+TEST(Segmentation, DoesNotDependOnTheNumberOfThreads) {
+  const Mesh mesh = test::dumbbell(40, 24);
+  const Segmentation many = segment(mesh);
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const Segmentation single = segment(mesh);
+  EXPECT_EQ(single.labels, many.labels);
+  EXPECT_EQ(single.values, many.values);
+}
+
+TEST(Segmentation, StopsWhenAskedTo) {
+  const Progress stop{.report = {}, .cancelled = [] { return true; }};
+  EXPECT_THROW(segment(test::sphere(1, 8), {}, stop), Cancelled);
+}
+
+}  // namespace
+}  // namespace partwise
