@@ -127,6 +127,21 @@ TEST(ConvexHull, CubeWithAGridOfPointsInItAndOnItsFaces) {
   EXPECT_DOUBLE_EQ(hull.volume, 216);
 }
 
+TEST(ConvexHull, PlanesOfSliversHoldTheWholeHull) {
+  // A tetrahedron with a fifth corner next to the middle of an edge, moved by a rounding error in any direction.
+  std::mt19937_64 random(9);
+  for (int trial = 0; trial < 100; ++trial) {
+    Mesh hull{Vertices(5, 3), Faces(6, 3)};
+    hull.vertices << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0.5, 0, 0;
+    hull.vertices.row(4) += 1e-15 * test::random_direction(random);
+    hull.vertices = (hull.vertices * test::random_rotation(random)).eval();
+    hull.faces << 0, 4, 1, 0, 2, 4, 4, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3;
+    const auto planes = hull_planes(hull);
+    for (const auto& plane : planes.rowwise())
+      EXPECT_LE((hull.vertices * plane.head<3>().transpose()).maxCoeff() - plane[3], 1e-14);
+  }
+}
+
 TEST(ConvexHull, CosphericalPointsOfARegularBall) {
   Vertices points(36 * 17 + 2, 3);
   int count = 0;
