@@ -129,21 +129,19 @@ bool has_deep_valley(const PartGraph& part, const PartHull& hull, const SurfaceQ
   std::vector<std::vector<std::size_t>> of_source(part.vertices.size());
   for (std::size_t i = 0; i < edges.size(); ++i) of_source[source[i]].push_back(i);
   // Long bridges first: they are the likely ones.
-  std::vector<double> span(edges.size());
+  std::vector<std::pair<double, std::size_t>> order;  // minus the length; the edge
   for (std::size_t i = 0; i < edges.size(); ++i)
-    span[i] = (part.positions.row(edges[i].first) - part.positions.row(edges[i].second)).norm();
-  std::vector<std::size_t> order(edges.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t x, std::size_t y) { return span[x] > span[y]; });
+    order.emplace_back(-(part.positions.row(edges[i].first) - part.positions.row(edges[i].second)).norm(), i);
+  std::sort(order.begin(), order.end());
   std::vector<char> settled(edges.size(), 0);
   PathSearch search(part);
   NearHull near_hull(part, hull, rim_depth * tolerance);
   std::optional<Hollows> hollows;
   std::vector<Valley> rims;  // kept until the search's paths have been read: the repair searches anew
-  for (const std::size_t i : order) {
+  for (const auto& [minus_length, i] : order) {
     if (settled[i]) continue;
     const auto [a, b] = edges[i];
-    if (search.has_path(a, b, std::hypot(span[i], 2 * tolerance))) continue;
+    if (search.has_path(a, b, std::hypot(minus_length, 2 * tolerance))) continue;
     if (runs_inside(surface, part.positions.row(a), part.positions.row(b))) continue;
     std::vector<std::size_t> together;
     std::vector<int> targets;

@@ -190,19 +190,20 @@ bool PathSearch::has_path(int a, int b, double at_most) {
   begin();
   const Point goal = graph_.positions.row(b);
   constexpr double kHaste = 2;  // of the straight way ahead, against the way behind
-  Queue queue;
   relax(a, 0, -1);
-  queue.push({(graph_.positions.row(a) - goal).norm(), a});
-  while (!queue.empty()) {
-    const int v = queue.top().second;
-    queue.pop();
+  heap_.assign(1, {0, a});
+  while (!heap_.empty()) {
+    const int v = heap_.front().second;
+    std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
+    heap_.pop_back();
     for (int i = graph_.first[v]; i < graph_.first[v + 1]; ++i) {
       const auto [w, length] = graph_.steps[i];
       const double distance = distance_[v] + length;
       const double ahead = (graph_.positions.row(w) - goal).norm();
       if (distance + ahead > at_most || !relax(w, distance, v)) continue;
       if (w == b) return true;
-      queue.push({kHaste * ahead + distance, w});
+      heap_.emplace_back(kHaste * ahead + distance, w);
+      std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
     }
   }
   return false;

@@ -74,6 +74,7 @@ class PathSearch {
   std::vector<int> previous_;
   std::vector<int> seen_;
   int round_ = 0;
+  std::vector<std::pair<double, int>> heap_;
   double width_ = 1;                                       // of a bucket
   std::vector<std::vector<std::pair<double, int>>> ring_;  // buckets, used in turns: no step is longer than all
 };

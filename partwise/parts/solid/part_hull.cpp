@@ -11,10 +11,12 @@ namespace {
 PartHull with_edges(Mesh mesh, std::vector<int> vertices) {
   PartHull hull{std::move(mesh), std::move(vertices), {}, {}};
   hull.planes = hull_planes(hull.mesh);
+  hull.edges.reserve(static_cast<std::size_t>(hull.mesh.faces.rows()) * 3 / 2);
   for (const auto& f : hull.mesh.faces.rowwise()) {
     for (int k = 0; k < 3; ++k) {
-      const auto [a, b] = std::minmax(hull.vertices[f[k]], hull.vertices[f[(k + 1) % 3]]);
-      if (a != b) hull.edges.emplace_back(a, b);
+      const int a = f[k], b = f[(k + 1) % 3];  // the hull is closed: another facet has (b, a)
+      if (a < b && hull.vertices[a] != hull.vertices[b])
+        hull.edges.push_back(std::minmax(hull.vertices[a], hull.vertices[b]));
     }
   }
   std::sort(hull.edges.begin(), hull.edges.end());

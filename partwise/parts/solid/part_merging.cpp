@@ -227,7 +227,15 @@ void PartMerging::merge(const Progress& progress, int at_least) {
   }
 }
 
+std::vector<std::pair<int, int>> PartMerging::surroundings(int part) const {
+  std::vector<std::pair<int, int>> result{{part, parts_[part].version}};
+  for (int n : neighbours(part)) result.emplace_back(n, parts_[n].version);
+  return result;
+}
+
 bool PartMerging::dissolve_part(int part) {
+  const std::vector<std::pair<int, int>> around = surroundings(part);
+  if (around == parts_[part].stuck_among) return false;
   std::map<int, HullPart> taker;  // the neighbours as they would become
   const auto body = [&](int p) -> const HullPart& {
     const auto found = taker.find(p);
@@ -278,7 +286,10 @@ bool PartMerging::dissolve_part(int part) {
       placed = true;
       break;
     }
-    if (!placed) return false;
+    if (!placed) {
+      parts_[part].stuck_among = around;
+      return false;
+    }
   }
   for (const auto& [piece, to] : goes_to) {
     part_of_[piece] = to;
@@ -319,6 +330,7 @@ void PartMerging::refine() {
   for (Part& part : parts_) {
     part.pieces.clear();
     part.refused_pieces.clear();
+    part.stuck_among.clear();
   }
   for (int p = 0; p < static_cast<int>(pieces_.size()); ++p) parts_[part_of_[p]].pieces.push_back(p);
 }

@@ -58,6 +58,7 @@ class PartMerging {
     int version = 0;               // counts its changes
     std::set<int> refused;         // parts that it may not be merged with; what grows stays refused
     std::set<int> refused_pieces;  // pieces of others that it may not take
+    std::vector<std::pair<int, int>> stuck_among;  // surroundings in which it could not be dissolved
   };
   struct Growth {
     double cost;
@@ -68,6 +69,7 @@ class PartMerging {
   bool joined(const HullPart& a, const HullPart& b, HullPart& result);  // false: not accepted
   void replace(int part, HullPart body);
   std::vector<int> neighbours(int part) const;
+  std::vector<std::pair<int, int>> surroundings(int part) const;  // it and its neighbours, with their versions
   bool dissolve_part(int part);
 
   const Mesh& mesh_;
