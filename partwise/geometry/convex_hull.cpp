@@ -9,7 +9,6 @@ extern "C" {
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -130,9 +129,8 @@ ConvexHull convex_hull(const Vertices& points, double minimum_thickness) {
 }
 
 Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> hull_planes(const Mesh& hull) {
-  constexpr double kSliver = 1e-4;  // of the hull's size; rounding turns narrower facets noticeably
   Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> planes(hull.faces.rows(), 4);
-  const double size = (hull.vertices.colwise().maxCoeff() - hull.vertices.colwise().minCoeff()).norm();
+  const Eigen::Matrix<double, 3, Eigen::Dynamic> corners = hull.vertices.transpose();
   Eigen::Index count = 0;
   for (const auto& f : hull.faces.rowwise()) {
     const Point a = hull.vertices.row(f[0]);
@@ -140,14 +138,8 @@ Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> hull_planes(const Mesh
     const double length = normal.norm();
     if (length == 0) continue;  // A sliver between three points of a line bounds nothing.
     const Point unit = normal / length;
-    // Of the three corners the outermost, whatever rounding did to the normal.
-    double offset = std::max({unit.dot(a), unit.dot(hull.vertices.row(f[1])), unit.dot(hull.vertices.row(f[2]))});
-    // A sliver may stand across the hull: it holds all the others as well, which no true facet needs.
-    const double base = std::sqrt(std::max({(hull.vertices.row(f[1]) - a).squaredNorm(),
-                                            (hull.vertices.row(f[2]) - a).squaredNorm(),
-                                            (hull.vertices.row(f[2]) - hull.vertices.row(f[1])).squaredNorm()}));
-    if (length < kSliver * size * base) offset = (hull.vertices * unit.transpose()).maxCoeff();
-    planes.row(count++) << unit, offset;
+    // The outermost of all corners: slivers of a flat side with many may stand across the hull or look inwards.
+    planes.row(count++) << unit, (unit * corners).maxCoeff();
   }
   planes.conservativeResize(count, 4);
   return planes;

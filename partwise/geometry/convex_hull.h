@@ -27,8 +27,8 @@ struct ConvexHull {
 // minimum_thickness in model units, positive.
 ConvexHull convex_hull(const Vertices& points, double minimum_thickness);
 
-// The planes (n, d) of the facets with n . x <= d inside, n of unit length: one a facet of positive area. Slivers,
-// which rounding may turn any way, still have the whole hull on their inner side.
+// The planes (n, d) of the facets with n . x <= d inside, n of unit length: one a facet of positive area. The whole
+// hull lies inside every one, also those of slivers, which rounding may turn any way.
 Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> hull_planes(const Mesh& hull);
 
 }  // namespace partwise
