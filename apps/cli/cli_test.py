@@ -19,6 +19,12 @@ PROGRAM = ""
 NOTCH = Path(__file__).resolve().parents[2] / "examples" / "notch.obj"
 
 
+def glb_json(file):
+    """The JSON of a binary glTF file."""
+    data = file.read_bytes()
+    return json.loads(data[20:20 + int.from_bytes(data[12:16], "little")])
+
+
 class CommandLine(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory(prefix="partwise-cli-")
@@ -314,7 +320,7 @@ class Feature(CommandLine):
 
     def test_each_cube_sees_its_own_area(self):
         for kind in ("cvf", "cvf-avg", "cvf-strong", "cvf-weak"):
-            result = self.feature("--kind", kind, "--values", "v.txt", "--json", "-")
+            result = self.feature("--kind", kind, "--values", "v.txt", "--glb", "v.glb", "--json", "-")
             self.assert_done(result)
             values = [float(line) for line in (self.folder / "v.txt").read_text().splitlines()]
             for value, area in zip(values, [24] * 8 + [6] * 8, strict=True):
@@ -323,6 +329,14 @@ class Feature(CommandLine):
             self.assertEqual((report["min"], report["max"]), (min(values), max(values)))
             self.assertEqual(report["kind"], kind)
             self.assertEqual("method" in report, kind != "cvf-weak")
+            self.assertEqual(report["files"], {"values": "v.txt", "glb": "v.glb"})
+            self.assertEqual(len(glb_json(self.folder / "v.glb")["meshes"]), 2)
+
+    def test_shape_diameter(self):
+        self.assert_done(self.feature("--kind", "sdf", "--values", "v.txt"))
+        values = [float(line) for line in (self.folder / "v.txt").read_text().splitlines()]
+        self.assertEqual(len(values), 16)
+        self.assertTrue(all(1 < value < 4 for value in values[:8]) and all(0.5 < value < 2 for value in values[8:]), values)
 
     def test_filter_asks_less_than_search(self):
         tests = [json.loads(self.feature("--kind", "cvf", "--method", method, "--json", "-").stdout)["visibility_tests"]
@@ -332,7 +346,7 @@ class Feature(CommandLine):
 
     def test_wrong_usage(self):
         for arguments, word in ((["--kind", "height"], "--kind"), ([], "--kind"), (["--kind", "cvf", "--method", "x"], "--method"),
-                                (["--kind", "cvf-weak", "--method", "bfs"], "--method"),
+                                (["--kind", "cvf-weak", "--method", "bfs"], "--method"), (["--kind", "sdf", "--method", "bfs"], "--method"),
                                 (["--kind", "cvf", "--weak-threshold", "0.2"], "--weak-threshold"),
                                 (["--kind", "cvf-weak", "--weak-threshold", "0"], "--weak-threshold"),
                                 (["--kind", "cvf", "--values", "cubes.off"], "same file")):
@@ -344,6 +358,26 @@ class Feature(CommandLine):
         result = self.run_program("feature", "flat.off", "--kind", "cvf", "--values", "v.txt")
         self.assert_refused(result, 1, "flat.off: no face has an area; give a mesh")
         self.assert_files("cubes.off", "flat.off")
+
+
+class Medial(CommandLine):
+    def test_points_are_written(self):
+        result = self.run_program("medial", NOTCH, "--points", "axis.ply", "--json", "-")
+        self.assert_done(result)
+        report = json.loads(result.stdout)
+        header, points = (self.folder / "axis.ply").read_text().split("end_header\n")
+        self.assertIn(f"element vertex {report['samples']}\n", header)
+        rows = [[float(word) for word in line.split()] for line in points.splitlines()]
+        self.assertEqual(len(rows), report["samples"])
+        self.assertGreater(len(rows), 100)
+        self.assertTrue(all(row[3] > 0 for row in rows))
+
+    def test_wrong_usage(self):
+        self.assert_refused(self.run_program("medial", NOTCH, "--points", "axis.txt"), 2, ".ply")
+        self.assert_refused(self.run_program("medial", NOTCH, "--spacing", "0"), 2, "--spacing")
+        self.assert_refused(self.run_program("medial", NOTCH, "--spacing", "0.001"), 1, "spacing", "0.005")
+        self.assert_refused(self.run_program("medial", NOTCH, "--least-angle", "200"), 1, "least_angle")
+        self.assert_files()
 
 
 class Outline(CommandLine):

@@ -1,58 +1,81 @@
-// partwise feature: partwise::continuous_visibility with files.
+// partwise feature: partwise::continuous_visibility and partwise::shape_diameter with files.
 
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "mesh_errors.h"
 #include "options.h"
+#include "part_meshes.h"
 #include "partwise/base/atomic_file.h"
 #include "partwise/geometry/mesh_io.h"
 #include "partwise/parts/surface/continuous_visibility.h"
+#include "partwise/parts/surface/shape_diameter.h"
 #include "verbs.h"
 
 namespace partwise::cli {
 namespace {
 
 struct Options {
-  std::string mesh, values;
+  std::string mesh, values, glb;
+  std::optional<VisibilityKind> kind;  // none: the shape diameter
   VisibilitySettings settings;
 };
 
-const Choices<VisibilityKind> kinds = {{"cvf", VisibilityKind::cvf},
-                                       {"cvf-avg", VisibilityKind::avg},
-                                       {"cvf-strong", VisibilityKind::strong},
-                                       {"cvf-weak", VisibilityKind::weak}};
+const Choices<std::optional<VisibilityKind>> kinds = {{"cvf", VisibilityKind::cvf},
+                                                      {"cvf-avg", VisibilityKind::avg},
+                                                      {"cvf-strong", VisibilityKind::strong},
+                                                      {"cvf-weak", VisibilityKind::weak},
+                                                      {"sdf", std::nullopt}};
 const Choices<VisibilityMethod> methods = {{"filter", VisibilityMethod::filter},
                                            {"bfs", VisibilityMethod::bfs},
                                            {"bfs-plain", VisibilityMethod::bfs_plain},
                                            {"filter-printed", VisibilityMethod::filter_printed}};
 
+// Values of the vertices, and by how many visibility tests.
+VisibilityFeature values_of(const Mesh& mesh, const Options& options, const Progress& progress) {
+  if (!options.kind) return {.values = vertex_means(mesh, shape_diameter(mesh, {}, progress).values), .tests = 0};
+  VisibilitySettings settings = options.settings;
+  settings.kind = *options.kind;
+  return continuous_visibility(mesh, settings, progress);
+}
+
 void report(const Options& options, const VisibilityFeature& feature, Run& run) {
+  const std::string kind = name_of(kinds, options.kind);
   nlohmann::ordered_json& json = run.report;
   json["visibility_tests"] = feature.tests;
   json["min"] = feature.values.minCoeff();
   json["max"] = feature.values.maxCoeff();
   json["mean"] = feature.values.mean();
-  json["kind"] = name_of(kinds, options.settings.kind);
-  if (options.settings.kind != VisibilityKind::weak) json["method"] = name_of(methods, options.settings.method);
+  json["kind"] = kind;
+  if (options.kind && options.kind != VisibilityKind::weak) json["method"] = name_of(methods, options.settings.method);
   json["vertices"] = feature.values.size();
   json["input"] = options.mesh;
-  run.summary =
-      fmt::format("{}: {} of {} vertices, {:.6g} to {:.6g}, by {} visibility tests{}", options.mesh,
-                  name_of(kinds, options.settings.kind), feature.values.size(), feature.values.minCoeff(),
-                  feature.values.maxCoeff(), feature.tests, options.values.empty() ? "" : "\nwrote " + options.values);
+  json["files"] = nlohmann::ordered_json::object();
+  std::string written;
+  for (const auto& [name, file] : {std::pair("values", &options.values), std::pair("glb", &options.glb)}) {
+    if (file->empty()) continue;
+    json["files"][name] = *file;
+    written += (written.empty() ? "\nwrote " : ", ") + *file;
+  }
+  const std::string effort = options.kind ? fmt::format(", by {} visibility tests", feature.tests) : "";
+  run.summary = fmt::format("{}: {} of {} vertices, {:.6g} to {:.6g}{}{}", options.mesh, kind, feature.values.size(),
+                            feature.values.minCoeff(), feature.values.maxCoeff(), effort, written);
 }
 
 void feature_of_file(const Options& options, Run& run) {
   run.outputs.add_input("MESH", options.mesh);
   if (!options.values.empty()) run.outputs.add("--values", options.values);
+  if (!options.glb.empty()) run.outputs.add("--glb", options.glb, {".glb"});
   const Mesh mesh = run.stage("read", [&] { return read_mesh(options.mesh); });
-  const VisibilityFeature feature = run.stage("feature", [&] {
-    return naming_mesh(options.mesh, [&] { return continuous_visibility(mesh, options.settings, run.progress); });
-  });
+  const VisibilityFeature feature = run.stage(
+      "feature", [&] { return naming_mesh(options.mesh, [&] { return values_of(mesh, options, run.progress); }); });
   run.stage("write", [&] {
+    if (!options.glb.empty())
+      write_meshes(run.outputs.staged("--glb"), value_meshes(mesh, face_means(mesh, feature.values)));
     if (options.values.empty()) return;
     std::string lines;
     for (const double value : feature.values) lines += fmt::format("{}\n", value);
@@ -65,9 +88,10 @@ Action add(CLI::App& command) {
   const auto options = std::make_shared<Options>();
   VisibilitySettings& settings = options->settings;
   add_mesh(command, options->mesh);
-  add_choice(command, "--kind", settings.kind, kinds,
+  add_choice(command, "--kind", options->kind, kinds,
              "cvf: area that a vertex sees over visible paths; cvf-avg: its mean with the value on the other side of "
-             "the wall; cvf-strong: what sees back; cvf-weak: over shortest paths that are hidden for little")
+             "the wall; cvf-strong: what sees back; cvf-weak: over shortest paths that are hidden for little; sdf: "
+             "shape diameter, how thick the solid is")
       ->required();
   const CLI::Option* method = add_choice(
       command, "--method", settings.method, methods,
@@ -77,11 +101,14 @@ Action add(CLI::App& command) {
       add_positive(command, "--weak-threshold", settings.weak_threshold,
                    "Of cvf-weak: the longest hidden part of a path, as a share of the bounding-sphere radius [0.1]");
   add_file(command, "--values", options->values, "Write the value of each vertex, one a line");
+  add_file(command, "--glb", options->glb, "Write the mesh, coloured from dark blue, least, to yellow, most (.glb)");
   return [options, method, threshold](Run& run) {
-    const bool weak = options->settings.kind == VisibilityKind::weak;
-    if (weak && method->count() > 0)
-      throw UsageError("--method does not belong to --kind cvf-weak, which searches in a way of its own; leave it out");
-    if (!weak && threshold->count() > 0) throw UsageError("--weak-threshold belongs to --kind cvf-weak; leave it out");
+    const bool searched = options->kind && options->kind != VisibilityKind::weak;
+    if (!searched && method->count() > 0)
+      throw UsageError(
+          "--method does not belong to --kind cvf-weak or sdf, which have ways of their own; leave it out");
+    if (options->kind != VisibilityKind::weak && threshold->count() > 0)
+      throw UsageError("--weak-threshold belongs to --kind cvf-weak; leave it out");
     feature_of_file(*options, run);
   };
 }
@@ -90,11 +117,11 @@ Action add(CLI::App& command) {
 
 const Verb feature_verb = {
     .name = "feature",
-    .summary = "The continuous visibility of each vertex of a mesh",
+    .summary = "How large the part about each vertex of a mesh is: continuous visibility, or shape diameter",
     .details =
         "How much of the surface each vertex sees through the solid, along paths that it sees all of: large in large\n"
-        "convex parts, small in small ones and in hollows. Model units squared.",
-    .example = "  partwise feature hand.off --kind cvf-avg --values hand.txt --json -",
+        "convex parts, small in small ones and in hollows. Model units squared; sdf in model units.",
+    .example = "  partwise feature hand.off --kind cvf-avg --values hand.txt --glb hand.glb",
     .add = add,
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <unordered_map>
 
 #include "partwise/appearance/palette.h"
@@ -42,6 +43,22 @@ std::vector<NamedMesh> hull_meshes(std::span<const Mesh> hulls) {
     result.push_back({fmt::format("part_{}", part), hull, part_colour(part)});
   }
   return result;
+}
+
+std::vector<NamedMesh> value_meshes(const Mesh& mesh, const Eigen::VectorXd& values) {
+  constexpr int kLevels = 32;
+  const double least = values.minCoeff(), range = values.maxCoeff() - least;
+  std::vector<int> level;
+  for (const double value : values)
+    level.push_back(range > 0 ? std::min(kLevels - 1, static_cast<int>(kLevels * (value - least) / range)) : 0);
+  std::vector<NamedMesh> members = part_meshes(mesh, level, kLevels);
+  for (int i = 0; i < kLevels; ++i) {
+    NamedMesh& member = members[static_cast<std::size_t>(i)];
+    member.name = fmt::format("{:.4g}_to_{:.4g}", least + range * i / kLevels, least + range * (i + 1) / kLevels);
+    member.colour = value_colour(static_cast<float>(i) / (kLevels - 1));
+  }
+  std::erase_if(members, [](const NamedMesh& member) { return member.mesh.faces.rows() == 0; });
+  return members;
 }
 
 }  // namespace partwise::cli

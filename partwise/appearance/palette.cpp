@@ -58,6 +58,12 @@ Eigen::Vector3f linear_from_oklab(const Eigen::Vector3f& lab) {
           -0.0041960863f * l3 - 0.7034186147f * m3 + 1.7076147010f * s3};
 }
 
+Eigen::Vector3f value_colour(float value) {
+  const float t = std::clamp(value, 0.0f, 1.0f);
+  const Eigen::Vector3f lab = oklab(0.3f + 0.6f * t, 0.1f + 0.05f * t * t, 285 - 180 * t);
+  return linear_from_oklab(lab).cwiseMax(0).cwiseMin(1);
+}
+
 Eigen::Vector3f part_colour(int index) {
   static const std::array<Eigen::Vector3f, part_colours> colours = farthest_first();
   PARTWISE_CHECK(index, >=, 0);

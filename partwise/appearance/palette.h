@@ -14,6 +14,10 @@ inline constexpr int part_colours = 48;
 // Linear RGB in [0, 1] of part `index`, 0 or more.
 Eigen::Vector3f part_colour(int index);
 
+// Linear RGB of a value in [0, 1]: lightness rises evenly from dark blue over teal to yellow, so that values come in
+// the same order for every eye and in print. Values outside are taken to the nearer end.
+Eigen::Vector3f value_colour(float value);
+
 // Linear RGB of an OKLab colour; components outside [0, 1] mean that no display has it.
 Eigen::Vector3f linear_from_oklab(const Eigen::Vector3f& lab);
 

@@ -30,5 +30,17 @@ TEST(Palette, ColoursAreDisplayableAndApart) {
   EXPECT_THROW(part_colour(-1), CheckFailed);
 }
 
+TEST(Palette, ValuesRiseInLightness) {
+  const auto luminance = [](const Eigen::Vector3f& rgb) { return rgb.dot(Eigen::Vector3f(0.2126f, 0.7152f, 0.0722f)); };
+  for (int i = 0; i < 50; ++i) {
+    const Eigen::Vector3f colour = value_colour(i / 50.0f), next = value_colour((i + 1) / 50.0f);
+    EXPECT_GE(colour.minCoeff(), 0);
+    EXPECT_LE(colour.maxCoeff(), 1);
+    EXPECT_LT(luminance(colour), luminance(next)) << i;
+  }
+  EXPECT_EQ(value_colour(-1), value_colour(0));
+  EXPECT_EQ(value_colour(2), value_colour(1));
+}
+
 }  // namespace
 }  // namespace partwise

@@ -1,52 +1,19 @@
 #include "partwise/parts/surface/continuous_visibility.h"
 
 #include <fmt/format.h>
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "partwise/base/error.h"
 #include "partwise/geometry/inner_visibility.h"
 #include "partwise/parts/surface/surface_graph.h"
-#include "partwise/parts/surface/visible_region.h"
+#include "partwise/parts/surface/visible_regions.h"
 #include "partwise/parts/surface/weak_visibility.h"
 
 namespace partwise {
 namespace {
-
-// Viewpoints that one thread does in a row, so that each can start from its neighbours' contours. A constant: the
-// number of tests depends on it.
-constexpr int kInARow = 128;
-
-using UseRegion = std::function<void(int viewpoint, const std::vector<int>& region)>;
-
-// Finds the region of every vertex; `use` is called from several threads. Returns the number of tests.
-std::uint64_t for_each_region(const SurfaceGraph& graph, const InnerVisibility& visibility, VisibilityMethod method,
-                              const Progress& progress, const UseRegion& use) {
-  tbb::enumerable_thread_specific<VisibleRegion> regions([&] { return VisibleRegion(graph, visibility); });
-  SharedProgress shared(progress, "seeing", graph.size());
-  const int rows = (graph.size() + kInARow - 1) / kInARow;
-  tbb::parallel_for(0, rows, [&](int row) {
-    VisibleRegion& region = regions.local();
-    const int begin = row * kInARow, end = std::min(begin + kInARow, graph.size());
-    std::vector<std::vector<std::pair<int, int>>> pairs(static_cast<std::size_t>(end - begin));
-    for (int v = begin; v < end; ++v) {
-      const std::vector<std::pair<int, int>>* hints = nullptr;
-      for (const int w : graph.neighbours(v))
-        if (w >= begin && w < v) hints = &pairs[static_cast<std::size_t>(w - begin)];
-      region.find(v, method, hints);
-      pairs[static_cast<std::size_t>(v - begin)] = region.edge_pairs();
-      use(v, region.vertices());
-    }
-    shared.add(end - begin);
-  });
-  std::uint64_t tests = 0;
-  for (const VisibleRegion& region : regions) tests += region.tests();
-  return tests;
-}
 
 std::int64_t weight_of(const SurfaceGraph& graph, const std::vector<int>& vertices) {
   std::int64_t sum = 0;
@@ -134,6 +101,18 @@ Eigen::VectorXd face_means(const Mesh& mesh, const Eigen::VectorXd& vertex_value
     means[f] =
         (vertex_values[mesh.faces(f, 0)] + vertex_values[mesh.faces(f, 1)] + vertex_values[mesh.faces(f, 2)]) / 3;
   return means;
+}
+
+Eigen::VectorXd vertex_means(const Mesh& mesh, const Eigen::VectorXd& face_values) {
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(mesh.vertices.rows()), areas = sums;
+  const std::vector<double> area = face_areas(mesh);
+  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
+    for (const int v : mesh.faces.row(f)) {
+      sums[v] += area[static_cast<std::size_t>(f)] * face_values[f];
+      areas[v] += area[static_cast<std::size_t>(f)];
+    }
+  }
+  return (areas.array() > 0).select(sums.array() / areas.array(), 0);
 }
 
 }  // namespace partwise

@@ -9,7 +9,7 @@
 //   avg     the mean of the vertex's value and of the value at the face that the ray against its normal meets first
 //           (the mean of that face's corners); its own where the ray meets nothing. Section 2.2.4.3.
 //   strong  the area of what is continuously visible both ways.
-//   weak    the area of the vertices q for which the shortest path from p has at most `weak_threshold` of its length
+//   weak    the area of the vertices q for which the shortest path from p has at most `weak_threshold` R of its length
 //           hidden from p, and the one from q as little from q, and that p sees. Paths run along the edges of the mesh;
 //           an edge counts as hidden by half for each hidden end.
 //
@@ -59,7 +59,9 @@ struct VisibilityVectors {
 VisibilityVectors visibility_vectors(const Mesh& mesh, VisibilityMethod method = VisibilityMethod::filter,
                                      const Progress& progress = {});
 
-// Values of vertices averaged over the corners of each face.
+// Values of vertices averaged over the corners of each face, and of faces over those at each vertex by their areas (0
+// where there is none with an area).
 Eigen::VectorXd face_means(const Mesh& mesh, const Eigen::VectorXd& vertex_values);
+Eigen::VectorXd vertex_means(const Mesh& mesh, const Eigen::VectorXd& face_values);
 
 }  // namespace partwise

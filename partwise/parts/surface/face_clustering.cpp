@@ -16,7 +16,8 @@
 namespace partwise {
 namespace {
 
-constexpr double kLeast = 5e-6;  // of a probability, and of an angle / pi, before its logarithm is taken
+constexpr double kLeast = 5e-6;        // of a probability, and of an angle / pi, before its logarithm is taken
+constexpr double kUnitOfLength = 200;  // roots of the whole area, divided by the number of faces
 
 void check(const Mesh& mesh, const Eigen::MatrixXd& values, const ClusteringSettings& settings) {
   if (values.rows() != mesh.faces.rows() || values.cols() < 1) {
@@ -78,15 +79,15 @@ Eigen::MatrixXd cluster_costs(const Mesh& mesh, const Eigen::MatrixXd& values, c
 }
 
 std::vector<LabelLink> face_links(const Mesh& mesh, const ClusteringSettings& settings) {
+  const std::vector<double> areas = face_areas(mesh);
+  const double unit =
+      kUnitOfLength * std::sqrt(std::accumulate(areas.begin(), areas.end(), 0.0)) / static_cast<double>(areas.size());
+  const bool by_length = settings.by_length && unit > 0;
   std::vector<LabelLink> links;
-  double length = 0;
   for_each_link(mesh, [&](const HalfEdge& a, const HalfEdge& b) {
-    const double own = settings.by_length ? edge_length(mesh, a) : 1;
-    links.push_back({a.face, b.face, own * bend_weight(mesh, a, b, settings.convex_factor)});
-    length += own;
+    const double length = by_length ? edge_length(mesh, a) / unit : 1;
+    links.push_back({a.face, b.face, length * bend_weight(mesh, a, b, settings.convex_factor)});
   });
-  if (!(length > 0)) return links;
-  for (LabelLink& link : links) link.weight *= static_cast<double>(links.size()) / length;
   return links;
 }
 

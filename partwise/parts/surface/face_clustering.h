@@ -8,9 +8,11 @@
 //
 // is low (alpha expansion). weight = length x -log(t angle / pi), with angle that by which the surface bends at the
 // edge (0 where it is flat) and t = 1 where it bends inwards, convex_factor where it bends outwards: creases, and
-// concave ones most of all, are cheap to cut. length and size are 1, or the edge's length and the face's area in units
-// of their means, if `by_length` and `by_area` say so; a mesh that is finer in places then gives the same segments.
-// Segments are the connected pieces of clusters (across edges), so that there may be many more of them than k.
+// concave ones most of all, are cheap to cut. length and size are 1, or if `by_length` and `by_area` say so, size is
+// the face's area in units of the mean area, and length the edge's in units of 200 sqrt(whole area) / faces, which is
+// about the mean length on a mesh of 20000 faces. With both, energy a face is an integral over the surface and one
+// along the borders, so that a mesh that is finer, in places or as a whole, gives the same segments. Segments are the
+// connected pieces of clusters (across edges), so that there may be many more of them than k.
 //
 // Any triangle mesh: edges with one face bind nothing, edges with more than two bind the chain of topology.h, faces
 // without area are flat continuations of their neighbours. Deterministic for a seed.
