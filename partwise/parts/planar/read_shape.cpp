@@ -32,12 +32,15 @@ std::vector<float> coverage(const Image& image) {
 
 PolygonFile read_shape(const std::filesystem::path& path, const PolygonReadSettings& settings) {
   if (!is_png(path)) return read_polygons(path, settings);
-  const Image image = read_png(path);
-  Polygons polygons = trace_contours(coverage(image), image.width, image.height);
+  return mask_shape(read_png(path), settings.repair, path.string());
+}
+
+PolygonFile mask_shape(const Image& mask, bool repair, const std::string& place) {
+  Polygons polygons = trace_contours(coverage(mask), mask.width, mask.height);
   if (polygons.empty()) {
-    throw InputError(path.string(), "has no pixel above one half", "paint the inside white, the outside black");
+    throw InputError(place, "has no pixel above one half", "paint the inside white, the outside black");
   }
-  return valid_polygons(std::move(polygons), settings.repair, path.string());
+  return valid_polygons(std::move(polygons), repair, place);
 }
 
 }  // namespace partwise
