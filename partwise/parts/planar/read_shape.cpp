@@ -11,12 +11,6 @@
 namespace partwise {
 namespace {
 
-bool is_png(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending == ".png";
-}
-
 std::vector<float> coverage(const Image& image) {
   std::vector<float> values(static_cast<std::size_t>(image.width) * image.height);
   const bool colour = image.channels >= 3, alpha = image.channels % 2 == 0;
@@ -30,8 +24,14 @@ std::vector<float> coverage(const Image& image) {
 
 }  // namespace
 
+bool is_png_name(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending == ".png";
+}
+
 PolygonFile read_shape(const std::filesystem::path& path, const PolygonReadSettings& settings) {
-  if (!is_png(path)) return read_polygons(path, settings);
+  if (!is_png_name(path)) return read_polygons(path, settings);
   return mask_shape(read_png(path), settings.repair, path.string());
 }
 

@@ -92,8 +92,8 @@ Clustering k_means(const std::vector<CutLine>& lines, std::size_t k, std::mt1993
 
 }  // namespace
 
-LabelGrid label_grid(std::span<const Polygon> parts, const Eigen::Vector2d& low, const Eigen::Vector2d& high,
-                     int size) {
+LabelGrid label_grid(std::span<const Polygon> parts, const Eigen::Vector2d& low, const Eigen::Vector2d& high, int size,
+                     std::span<const int> owner) {
   LabelGrid grid;
   grid.size = size, grid.low = low, grid.cell = (high - low) / size;
   grid.labels.assign(static_cast<std::size_t>(size) * size, -1);
@@ -104,8 +104,9 @@ LabelGrid label_grid(std::span<const Polygon> parts, const Eigen::Vector2d& low,
     for (int line = 0; line < samples; ++line) {
       const double y = low.y() + (row * samples + line + 0.5) * step.y();
       for (std::size_t p = 0; p < parts.size(); ++p) {
+        const int part = owner.empty() ? static_cast<int>(p) : owner[p];
         scan(parts[p], y, low.x() + 0.5 * step.x(), step.x(), size * samples,
-             [&](int column) { ++counts[column / samples][static_cast<int>(p)]; });
+             [&](int column) { ++counts[column / samples][part]; });
       }
     }
     for (int column = 0; column < size; ++column) {
