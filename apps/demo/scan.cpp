@@ -31,7 +31,9 @@ class ValueNoise {
     const int column = static_cast<int>(u), row = static_cast<int>(v);
     const auto smooth = [](double t) { return t * t * (3 - 2 * t); };
     const double s = smooth(u - column), t = smooth(v - row);
-    const auto value = [&](int c, int r) { return values_[static_cast<std::size_t>(r * columns_ + c)]; };
+    const auto value = [&](int c, int r) {
+      return values_[static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(c)];
+    };
     return (1 - t) * ((1 - s) * value(column, row) + s * value(column + 1, row)) +
            t * ((1 - s) * value(column, row + 1) + s * value(column + 1, row + 1));
   }
