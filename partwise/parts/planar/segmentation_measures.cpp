@@ -65,6 +65,7 @@ Clustering k_means(const std::vector<CutLine>& lines, std::size_t k, std::mt1993
   result.centres.push_back(lines[random() % lines.size()]);
   while (result.centres.size() < k) {  // k-means++ (Arthur, Vassilvitskii 2007)
     std::vector<double> sums;
+    sums.reserve(lines.size());
     double sum = 0;
     for (const CutLine& line : lines) {
       sums.push_back(sum += (result.centres[nearest(result.centres, line)] - line).squaredNorm());
@@ -74,6 +75,7 @@ Clustering k_means(const std::vector<CutLine>& lines, std::size_t k, std::mt1993
   }
   for (int round = 0; round < 100; ++round) {
     std::vector<int> owner;
+    owner.reserve(lines.size());
     for (const CutLine& line : lines) owner.push_back(nearest(result.centres, line));
     if (owner == result.owner) break;
     result.owner = std::move(owner);
