@@ -5,7 +5,8 @@
 
 Prints the count of shapes, of failures by kind, parts and times; with --list a line a shape; with --acd2d DIR the table of
 acd2d's published and measured figures beside ours at equal absolute tolerance. --noise decomposes a noisy version of each
-shape as well (outline_noise) and prints the Rand index between the two, for outline_peer too.
+shape as well (outline_noise) and prints the Rand index between the two, for outline_peer too, and with --mncd SECONDS for
+outline_mncd, which gets so long for a shape. --record appends the totals to bench/history/outline.jsonl.
 """
 
 import argparse
@@ -17,6 +18,10 @@ import sys
 import tempfile
 import zlib
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+from harness import history  # noqa: E402
 
 ENDINGS = {".poly", ".png", ".svg", ".wkt", ".geojson"}
 # Radius of acd2d over ours, and its parts at 0.1, 0.05 and 0.01 of its radius.
@@ -44,9 +49,10 @@ def run(*command):
 
 
 class Bench:
-    def __init__(self, build, tolerance):
+    def __init__(self, build, tolerance, mncd=None):
         self.bin = Path(build) / "bin"
         self.tolerance = tolerance
+        self.peers = {"peer": ["outline_peer"]} | ({"mncd": ["outline_mncd", "--seconds", mncd]} if mncd else {})
 
     def outline(self, shape, parts, tolerance):
         result = run(self.bin / "partwise", "outline", shape, "--lenient", "--tolerance", tolerance, "--parts", parts,
@@ -96,17 +102,18 @@ class Bench:
                 compared = run(self.bin / "partwise", "compare2d", clean, noisy_parts, "--json", "-")
                 if compared.returncode == 0:
                     row["rand_index"] = json.loads(compared.stdout)["rand_index"]
-                row["peer"] = self.peer(shape, noisy, Path(folder))
+                for name, command in self.peers.items():
+                    row[name] = self.peer(command, shape, noisy, Path(folder))
             return row
 
-    def peer(self, shape, noisy, folder):
-        """The same of outline_peer, which takes every hole for structure."""
+    def peer(self, command, shape, noisy, folder):
+        """The same of a peer, which takes every hole for structure."""
         row, outputs = {}, [folder / "peer_clean.geojson", folder / "peer_noisy.geojson"]
         for name, given, parts in zip(("clean", "noisy"), (shape, noisy), outputs):
-            made = run(self.bin / "outline_peer", given, parts, "--tolerance", self.tolerance)
+            made = run(self.bin / command[0], given, parts, "--tolerance", self.tolerance, *command[1:])
             if made.returncode:
                 return {"wrong": made.stderr.strip()}
-            row[name] = json.loads(made.stdout)
+            row[name] = json.loads(made.stdout.splitlines()[-1])  # CBC may speak before
         compared = run(self.bin / "partwise", "compare2d", *outputs, "--json", "-")
         if compared.returncode == 0:
             row["rand_index"] = json.loads(compared.stdout)["rand_index"]
@@ -125,6 +132,28 @@ def summarise(rows, name):
         print(f"  parts: mean {statistics.mean(parts):.2f}, most {max(parts)}; holes kept {sum(r['holes_kept'] for r in good)}, "
               f"noise {sum(r['holes_noise'] for r in good)}; unresolved {sum(r['unresolved'] for r in good)}")
         print(f"  seconds: mean {statistics.mean(seconds):.4f}, median {statistics.median(seconds):.4f}, largest {seconds[-1]:.4f}")
+
+
+def stability(rows):
+    """By method, over the shapes that we cut into three parts or more and that all methods did, clean and noisy."""
+    methods = ["ours"] + [name for name in ("peer", "mncd") if any(name in row for row in rows)]
+    rows = [row for row in rows if row.get("parts", 0) >= 3 and "rand_index" in row
+            and all("rand_index" in row.get(name, {}) for name in methods[1:])]
+    totals = {}
+    for name in methods if rows else []:
+        clean = [row if name == "ours" else row[name]["clean"] for row in rows]
+        noisy = [row["noisy"] if name == "ours" else row[name]["noisy"] for row in rows]
+        rand = [(row if name == "ours" else row[name])["rand_index"] for row in rows]
+        totals[name] = {"shapes": len(rows), "rand_index": round(statistics.mean(rand), 4), "rand_index_min": round(min(rand), 4)}
+        for kind, results in (("clean", clean), ("noisy", noisy)):
+            totals[name] |= {
+                f"parts_{kind}": round(statistics.mean(result["parts"] for result in results), 2),
+                f"seconds_{kind}": round(statistics.mean(result["seconds"] for result in results), 4),
+                f"seconds_max_{kind}": round(max(result["seconds"] for result in results), 4),
+            }
+            if name == "mncd":
+                totals[name][f"finished_{kind}"] = sum(result["finished"] for result in results)
+    return totals
 
 
 def print_acd2d(bench, folder):
@@ -149,8 +178,10 @@ def main():
     parser.add_argument("--list", action="store_true")
     parser.add_argument("--json")
     parser.add_argument("--acd2d", metavar="DIR")
+    parser.add_argument("--mncd", type=float, metavar="SECONDS")
+    parser.add_argument("--record", action="store_true")
     options = parser.parse_args()
-    bench = Bench(options.build, options.tolerance)
+    bench = Bench(options.build, options.tolerance, options.mncd)
     if options.acd2d:
         print_acd2d(bench, options.acd2d)
     shapes = list(shapes_of(options.shapes))
@@ -164,15 +195,12 @@ def main():
     noisy = [row["noisy"] for row in rows if "noisy" in row]
     if noisy:
         summarise(noisy, "noisy")
-        rand = [row["rand_index"] for row in rows if "rand_index" in row and row["parts"] >= 3]
-        if rand:
-            print(f"Rand index of clean and noisy, {len(rand)} shapes of at least 3 parts: mean {statistics.mean(rand):.4f}, "
-                  f"least {min(rand):.4f}")
-        peer = [row["peer"] for row in rows if row["parts"] >= 3 and "rand_index" in row.get("peer", {})]
-        if peer:
-            mean = {kind: statistics.mean(row[kind]["parts"] for row in peer) for kind in ("clean", "noisy")}
-            print(f"  the peer on them: mean {statistics.mean(row['rand_index'] for row in peer):.4f}, parts clean "
-                  f"{mean['clean']:.2f}, noisy {mean['noisy']:.2f}")
+        totals = stability(rows)
+        for name, figures in totals.items():
+            print(f"{name}: " + ", ".join(f"{key} {value}" for key, value in figures.items()))
+        if options.record:
+            settings = {"tolerance": options.tolerance, "mncd_seconds": options.mncd, "shapes": len(rows)}
+            print(f"recorded in {history.record('outline', {'settings': settings, 'totals': totals})}")
     if options.json:
         Path(options.json).write_text("".join(json.dumps(row) + "\n" for row in rows))
     return 1 if any(row["wrong"] or row.get("noisy", {}).get("wrong") for row in rows) else 0

@@ -111,7 +111,7 @@ int main(int argc, char** argv) {
   program.add_option("--holes", holes);
   CLI11_PARSE(program, argc, argv);
   try {
-    Polygons polygons = partwise::read_shape(shape).polygons;
+    Polygons polygons = partwise::read_shape(shape, {.lenient = true}).polygons;
     const double unit = partwise::enclosing_circle(polygons).radius;
     std::mt19937_64 random(seed);
     const auto roughen = [&](Ring& ring) {

@@ -161,7 +161,7 @@ int main(int argc, char** argv) {
   program.add_option("--tolerance", tolerance);
   CLI11_PARSE(program, argc, argv);
   try {
-    const Polygons polygons = read_shape(shape).polygons;
+    const Polygons polygons = read_shape(shape, {.lenient = true}).polygons;
     const auto start = std::chrono::steady_clock::now();
     const Polygons result = decompose(polygons, tolerance * enclosing_circle(polygons).radius);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;

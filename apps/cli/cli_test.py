@@ -8,11 +8,13 @@ import os
 import pty
 import re
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
+import zlib
 from pathlib import Path
 
 PROGRAM = ""
@@ -446,6 +448,29 @@ class Outline(CommandLine):
         report = json.loads(self.run_program("compare2d", "a.geojson", "b.geojson", "a.geojson", "--json", "-").stdout)
         self.assertLess(report["rand_index_each"][0], 1)
         self.assertEqual(report["rand_index_each"][1], 1)
+
+    def test_compare_with_label_images(self):
+        def png(name, colours):
+            rows = b"".join(b"\0" + b"".join(bytes(colours[letter]) for letter in row) for row in ["aaab", "aaab", ".ccb"])
+            def chunk(kind, data):
+                return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+            header = struct.pack(">IIBBBBB", 4, 3, 8, 2, 0, 0, 0)
+            (self.folder / name).write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) +
+                                             chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+        png("mine.png", {"a": (255, 0, 0), "b": (0, 255, 0), "c": (0, 0, 255), ".": (0, 0, 0)})
+        png("two.png", {"a": (9, 9, 9), "b": (9, 9, 9), "c": (0, 0, 255), ".": (0, 0, 0)})
+        boxes = [[(0, 0), (3, 0), (3, 2), (1, 2), (0, 2)], [(3, 0), (4, 0), (4, 3), (3, 3), (3, 2)], [(1, 2), (3, 2), (3, 3), (1, 3)]]
+        (self.folder / "same.geojson").write_text(json.dumps({"type": "MultiPolygon", "coordinates": [[box] for box in boxes]}))
+        report = json.loads(self.run_program("compare2d", "mine.png", "same.geojson", "--json", "-").stdout)
+        self.assertEqual((report["rand_index"], report["cluster_coverage"]), (1, 1))
+        report = json.loads(self.run_program("compare2d", "mine.png", "two.png", "--json", "-").stdout)
+        # The 6 pixels of a and the 3 of b, of 11, are apart in mine and together in the other.
+        self.assertAlmostEqual(report["rand_index"], 1 - 2 * 6 / 11 * 3 / 11, delta=0.01)
+        (self.folder / "text.png").write_text("no picture")
+        self.assert_refused(self.run_program("compare2d", "text.png", "mine.png"), 1, "text.png", "PNG")
+
+
 class Segment(CommandLine):
     def setUp(self):
         """Two cubes of side 4 and a thin bar from one to the other, as quads of side 1."""

@@ -8,7 +8,7 @@
 
 #include "options.h"
 #include "partwise/base/error.h"
-#include "partwise/geometry/polygon_io.h"
+#include "partwise/parts/planar/read_segmentation.h"
 #include "partwise/parts/planar/segmentation_measures.h"
 #include "verbs.h"
 
@@ -28,19 +28,19 @@ double mean(const std::vector<double>& values) {
 }
 
 void compare_files(const Options& options, Run& run) {
-  std::vector<Polygons> parts;
+  std::vector<Segmentation> parts;
   run.stage("read", [&] {
-    parts.push_back(read_parts(options.judged));
-    for (const std::string& reference : options.references) parts.push_back(read_parts(reference));
+    parts.push_back(read_segmentation(options.judged));
+    for (const std::string& reference : options.references) parts.push_back(read_segmentation(reference));
   });
   Eigen::AlignedBox2d box;
-  for (const Polygons& each : parts) {
-    for (const Polygon& polygon : each) {
+  for (const Segmentation& each : parts) {
+    for (const Polygon& polygon : each.polygons) {
       for (Eigen::Index i = 0; i < polygon.outer.rows(); ++i) box.extend(Eigen::Vector2d(polygon.outer.row(i)));
     }
   }
   if (box.isEmpty() || !(box.sizes().minCoeff() > 0)) {
-    throw InputError(options.judged, "encloses nothing", "give decompositions as polygons");
+    throw InputError(options.judged, "encloses nothing", "give decompositions as polygons or label images");
   }
   std::vector<double> to_each;
   double to_representative = 0, coverage = 0;
@@ -48,9 +48,9 @@ void compare_files(const Options& options, Run& run) {
   run.stage("compare", [&] {
     std::vector<LabelGrid> grids;
     std::vector<std::vector<CutLine>> cuts;
-    for (const Polygons& each : parts) {
-      grids.push_back(label_grid(each, box.min(), box.max(), options.grid));
-      cuts.push_back(cut_lines(each));
+    for (const Segmentation& each : parts) {
+      grids.push_back(label_grid(each.polygons, box.min(), box.max(), options.grid, each.part));
+      cuts.push_back(cut_lines(each.polygons));
     }
     for (std::size_t r = 1; r < grids.size(); ++r) to_each.push_back(rand_index(grids[0], grids[r]));
     const auto clustered = cluster_cuts(std::span(cuts).subspan(1), run.seed);
@@ -72,7 +72,8 @@ void compare_files(const Options& options, Run& run) {
 Action add(CLI::App& command) {
   const auto options = std::make_shared<Options>();
   command
-      .add_option("A", options->judged, "The decomposition to judge, as polygons: .geojson, .json, .wkt, .svg, .poly")
+      .add_option("A", options->judged,
+                  "The decomposition to judge: polygons (.geojson, .json, .wkt, .svg, .poly) or a label image (.png)")
       ->required()
       ->type_name("");
   command.add_option("B", options->references, "What it is compared with, one or more")->required()->type_name("");
@@ -87,7 +88,8 @@ const Verb compare2d_verb = {
     "Rand index: the share of pairs of grid cells that both put into one part, or both into two; the mean over all B, "
     "and "
     "against the parts that representative cuts make. Cluster coverage: the share of the cuts of all B, clustered by "
-    "k-means, whose cluster has a cut of A.",
-    "  partwise compare2d mine.geojson human_1.geojson human_2.geojson", add};
+    "k-means, whose cluster has a cut of A. Label images: one colour or grey level a part, black or transparent is no "
+    "part; coordinates in pixels, y down.",
+    "  partwise compare2d mine.geojson human_1.geojson human_2.png", add};
 
 }  // namespace partwise::cli

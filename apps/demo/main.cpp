@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <future>
 
+#include "outlines.h"
 #include "page.h"
 #include "partwise/base/atomic_file.h"
 #include "partwise/base/shared_files.h"
@@ -121,6 +122,12 @@ void run(const std::filesystem::path& folder) {
     story.models[i].pictures = tell_pictures(models[i], decomposed[i], drawn);
     if (models[i].in_hero) hero.push_back(std::move(drawn));
   }
+  show("cutting outlines");
+  std::vector<const partwise::Mesh*> herd;
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    if (models[i].in_herd) herd.push_back(&decomposed[i].mesh);
+  }
+  story.outlines = demo::tell_outlines(herd);
   show("simulating and drawing the heap");
   story.pile = tell_pile(settings, pile.get());
   story.seconds = seconds_since(start);

@@ -7,9 +7,9 @@ namespace demo {
 std::span<const Model> models() {
   constexpr std::string_view cc0 = "CC0", by = "CC BY 3.0";
   static constexpr std::array<Model, 12> all{{
-      {"horse.ply", "Horse", "B2przemo", by, 50, true},
-      {"dog.obj", "Dog", "Scopia", by, 40, true},
-      {"deer.off", "Deer", "Sizzler", cc0, 60},
+      {"horse.ply", "Horse", "B2przemo", by, 50, true, true},
+      {"dog.obj", "Dog", "Scopia", by, 40, true, true},
+      {"deer.off", "Deer", "Sizzler", cc0, 60, false, true},
       {"chair.off", "Chair", "Ingoenius", cc0, 35},
       {"toy_car.glb", "Toy car", "Oldtimer", by, 40, true},
       {"rocking_horse.glb", "Rocking horse", "Sangio", cc0, 30},

@@ -13,6 +13,7 @@ struct Model {
   std::string_view licence;
   double azimuth;        // degrees: from where it is best seen
   bool in_hero = false;  // it is in the one picture that stands for all
+  bool in_herd = false;  // an animal, whose silhouette is in the crowd
 };
 
 std::span<const Model> models();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <string_view>
 
 #include "page_style.h"
@@ -141,6 +142,28 @@ and inertia. {:.0f} seconds of simulation took {:.1f} seconds of one core, and a
   return html + "<div class=\"wide\">\n" + figure(pile.heap_hulls, "eager") + "</div>\n</section>\n";
 }
 
+std::string outlines_section(const OutlineStory& outlines) {
+  std::string html = fmt::format(
+      R"(<section>
+<h2>And in the plane</h2>
+<p>Outlines, silhouettes and floor plans are cut along diagonals between their own corners. No corner of a part is farther than {:.2f} R from the
+bridge over its pocket, R the radius of the smallest circle around the shape. A skeleton runs from part to part through the cuts.</p>
+)",
+      outlines.tolerance);
+  html += figures(outlines.clean, "row even") + figures(outlines.skeletons, "row even gap");
+  html += fmt::format(
+      R"(<h3>Noise changes little</h3>
+<p>On the right, the edge of the same animal has been made ragged and its body speckled. The {} small holes count as noise: they stay holes, but no
+cut is made for them. At 0.10 R the two decompositions agree to a Rand index of {:.2f}.</p>
+)",
+      outlines.noise_holes, outlines.rand_index);
+  html += figures(outlines.noisy, "row even");
+  return html + R"(<h3>A crowd</h3>
+<p>Models from this page on one line, seen from the side: legs and bodies overlap and enclose gaps that matter, specks and ragged edges that do not.</p>
+)" + "<div class=\"wide\">\n" +
+         figure(outlines.herd, "eager") + "</div>\n</section>\n";
+}
+
 std::string use_section() {
   return R"(<section>
 <h2>Use it</h2>
@@ -166,7 +189,9 @@ std::string closing(const Story& story) {
                         model.model.author, model.model.licence);
   }
   html += fmt::format(
-      ". Licences: <a href=\"https://creativecommons.org/publicdomain/zero/1.0/\">CC0 1.0</a>, "
+      ". The outlines of bird, mammoth, neuron and the shape with three holes are examples of acd2d by Jyh-Ming Lien "
+      "(MIT "
+      "licence). Licences: <a href=\"https://creativecommons.org/publicdomain/zero/1.0/\">CC0 1.0</a>, "
       "<a href=\"https://creativecommons.org/licenses/by/3.0/\">CC BY 3.0</a>.</p>\n"
       "<p>Everything on this page was computed and drawn by one run of <code>partwise_demo</code>: {:.0f} seconds with "
       "{} "
@@ -182,6 +207,15 @@ Picture make_picture(const partwise::Image& image, std::string caption, std::str
           image.width, image.height};
 }
 
+Picture make_drawing(const std::string& svg, std::string caption, std::string description) {
+  const auto number = [&](std::string_view name) {
+    const std::size_t at = svg.find(fmt::format(" {}=\"", name));
+    return at == std::string::npos ? 0 : std::atoi(svg.c_str() + at + name.size() + 3);
+  };
+  return {"data:image/svg+xml;base64," + base64(svg), std::move(caption), std::move(description), number("width"),
+          number("height")};
+}
+
 std::string make_page(const Story& story) {
   std::string html = R"(<!doctype html>
 <html lang="en">
@@ -195,7 +229,8 @@ std::string make_page(const Story& story) {
 )";
   html += page_style;
   html += "</style>\n</head>\n<body>\n<main>\n";
-  html += opening(story) + models_section(story) + pile_section(story.pile) + use_section();
+  html += opening(story) + models_section(story) + pile_section(story.pile) + outlines_section(story.outlines) +
+          use_section();
   return html + "</main>\n" + closing(story) + "</body>\n</html>\n";
 }
 

@@ -35,15 +35,27 @@ struct PileStory {
   Picture heap, heap_hulls;
 };
 
+struct OutlineStory {  // of shapes in the plane
+  double tolerance = 0;
+  std::vector<Picture> clean, skeletons, noisy;
+  double rand_index = 0;  // of the clean and the noisy decomposition
+  int noise_holes = 0;    // that the noisy one has
+  Picture herd;
+};
+
 struct Story {
   double tolerance = 0;
   int threads = 0;
   std::vector<ModelStory> models;
   PileStory pile;
+  OutlineStory outlines;
   double seconds = 0;  // of the whole run
 };
 
 Picture make_picture(const partwise::Image& image, std::string caption, std::string description);
+
+// Of an SVG drawing, which must say its width and height.
+Picture make_drawing(const std::string& svg, std::string caption, std::string description);
 
 std::string make_page(const Story& story);
 

@@ -116,7 +116,7 @@ class Page(unittest.TestCase):
                     self.assertEqual(seen["unnamed"], 0)
                     self.assertEqual(seen["foreign"], 0)
                     self.assertGreaterEqual(seen["models"], 8)
-                    self.assertGreaterEqual(seen["images"], 4 * seen["models"] + 4)
+                    self.assertGreaterEqual(seen["images"], 4 * seen["models"] + 4 + 11)  # models, heap, outlines
                     self.assertNotIn("nan", " ".join(seen["facts"]).lower())
                     dark = brightness(seen["paper"]) < brightness(seen["ink"])
                     self.assertEqual(dark, scheme == "dark")

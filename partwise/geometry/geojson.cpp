@@ -84,7 +84,10 @@ Polygons read_geojson(const std::string& file, std::string_view bytes) {
   try {
     json = Json::parse(bytes);
   } catch (const Json::exception& error) {
-    throw InputError(file, fmt::format("is not JSON ({})", shown(error.what())), "give valid GeoJSON");
+    std::string_view reason = error.what();
+    const std::size_t name_end = reason.find("] ");  // the name of the exception stands in brackets
+    if (name_end != std::string_view::npos) reason.remove_prefix(name_end + 2);
+    throw InputError(file, fmt::format("is not JSON ({})", shown_reason(reason)), "give valid GeoJSON");
   }
   Reader reader(file);
   reader.object(json);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "partwise/base/error.h"
+#include "partwise/base/read_bytes.h"
 #include "partwise/geometry/bytes.h"
 #include "partwise/geometry/gltf_accessor.h"
 #include "partwise/geometry/mesh_formats.h"

@@ -6,6 +6,7 @@
 
 #include "partwise/base/atomic_file.h"
 #include "partwise/base/error.h"
+#include "partwise/base/read_bytes.h"
 #include "partwise/geometry/mesh_formats.h"
 #include "partwise/geometry/mesh_io.h"
 #include "partwise/geometry/text_scanner.h"

@@ -35,7 +35,4 @@ void write_ply(std::ostream& out, std::span<const NamedMeshView> meshes);
 void write_stl(std::ostream& out, std::span<const NamedMeshView> meshes);
 void write_glb(std::ostream& out, std::span<const NamedMeshView> meshes);
 
-// All bytes of a file. InputError when it is missing, no regular file, or cannot be read.
-std::string read_bytes(const std::filesystem::path& path);
-
 }  // namespace partwise

@@ -6,7 +6,7 @@
 
 #include "partwise/base/atomic_file.h"
 #include "partwise/base/error.h"
-#include "partwise/geometry/mesh_formats.h"
+#include "partwise/base/read_bytes.h"
 #include "partwise/geometry/polygon_formats.h"
 #include "partwise/geometry/polygon_validity.h"
 #include "partwise/geometry/text_scanner.h"
@@ -24,15 +24,9 @@ void append_ring(std::string& text, const Ring& ring) {
 }
 
 void check_finite(const Polygons& polygons, const std::string& place) {
-  const auto check = [&](const Ring& ring) {
-    // Squares of coordinates must not overflow either.
-    if (!ring.allFinite() || (ring.size() > 0 && ring.cwiseAbs().maxCoeff() > 1e150)) {
-      throw InputError(place, "a coordinate is not finite or too large", "correct or remove it");
-    }
-  };
   for (const Polygon& polygon : polygons) {
-    check(polygon.outer);
-    for (const Ring& hole : polygon.holes) check(hole);
+    partwise::check_finite(polygon.outer, place);
+    for (const Ring& hole : polygon.holes) partwise::check_finite(hole, place);
   }
 }
 
@@ -53,6 +47,13 @@ Polygons read_by_ending(const std::filesystem::path& path, const PolygonReadSett
 }
 
 }  // namespace
+
+void check_finite(const Ring& ring, const std::string& place) {
+  // Squares of coordinates must not overflow either.
+  if (!ring.allFinite() || (ring.size() > 0 && ring.cwiseAbs().maxCoeff() > 1e150)) {
+    throw InputError(place, "a coordinate is not finite or too large", "correct or remove it");
+  }
+}
 
 Ring ring_of(std::span<const Eigen::Vector2d> corners) {
   Ring ring(static_cast<Eigen::Index>(corners.size()), 2);

@@ -49,6 +49,9 @@ Polygons repair_polygons(const Polygons& polygons, const std::string& place) {
   geos.collect(valid.get(), result);
   normalise(result);
   if (result.empty()) throw InputError(place, "the shape has no area", "give polygons that enclose something");
+  if (find_fault(result)) {  // where coordinates are as small as their rounding
+    throw InputError(place, "the polygons cannot be repaired", "draw them again without crossings");
+  }
   return result;
 }
 

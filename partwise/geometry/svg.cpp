@@ -58,6 +58,7 @@ class Reader {
   }
 
   std::vector<Shape> shapes;
+  const std::string& file() const { return file_; }
 
  private:
   static FillRule rule_of(const char* text) {
@@ -102,7 +103,7 @@ Polygons read_svg(const std::string& file, std::string_view bytes, double flatte
   tinyxml2::XMLDocument document;
   if (document.Parse(bytes.data(), bytes.size()) != tinyxml2::XML_SUCCESS) {
     throw InputError(fmt::format("{}:{}", file, document.ErrorLineNum()),
-                     fmt::format("is not well-formed XML ({})", shown(document.ErrorName())), "export it again");
+                     fmt::format("is not well-formed XML ({})", shown_reason(document.ErrorName())), "export it again");
   }
   if (document.RootElement() == nullptr) throw InputError(file, "has no element", "give an SVG file");
   Reader reader(file);
@@ -115,6 +116,7 @@ Polygons read_svg(const std::string& file, std::string_view bytes, double flatte
       std::vector<Point2> corners;
       for (const Curve& curve : subpath) flatten(curve, tolerance, corners);
       rings.push_back(ring_of(corners));
+      check_finite(rings.back(), reader.file());  // before rings are compared by their areas
     }
     for (Polygon& polygon : assemble_polygons(std::move(rings), shape.rule)) polygons.push_back(std::move(polygon));
   }

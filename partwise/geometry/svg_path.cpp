@@ -94,7 +94,8 @@ void append_arc(std::vector<Curve>& curves, const Point2& from, const Point2& to
   double swept = std::atan2(end.y(), end.x()) - first;
   if (sweep && swept < 0) swept += 2 * pi;
   if (!sweep && swept > 0) swept -= 2 * pi;
-  const int pieces = std::max(1, static_cast<int>(std::ceil(std::abs(swept) / (pi / 4))));
+  // Where coordinates overflow the angle is no number, and what comes of it is refused as not finite.
+  const int pieces = std::isfinite(swept) ? std::max(1, static_cast<int>(std::ceil(std::abs(swept) / (pi / 4)))) : 1;
   const double step = swept / pieces, handle = 4.0 / 3.0 * std::tan(step / 4);
   const auto place = [&](const Point2& on_unit) -> Point2 { return centre + turn * on_unit.cwiseProduct(radii); };
   Point2 last = from;
@@ -259,8 +260,8 @@ void flatten(const Curve& curve, double tolerance, std::vector<Point2>& corners)
   // n equal pieces leave their chords by at most 3/4 M / n^2, with M the larger second difference of the control
   // points (Wang 1984).
   const double bend = std::max((a - 2 * b + c).norm(), (b - 2 * c + d).norm());
-  const int pieces =
-      curve.straight ? 1 : static_cast<int>(std::clamp(std::ceil(std::sqrt(0.75 * bend / tolerance)), 1.0, 4096.0));
+  const double wanted = std::ceil(std::sqrt(0.75 * bend / tolerance));
+  const int pieces = curve.straight || !std::isfinite(wanted) ? 1 : static_cast<int>(std::clamp(wanted, 1.0, 4096.0));
   for (int i = 0; i < pieces; ++i) {
     const double t = static_cast<double>(i) / pieces, s = 1 - t;
     corners.push_back(s * s * s * a + 3 * s * s * t * b + 3 * s * t * t * c + t * t * t * d);

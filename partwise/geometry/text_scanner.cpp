@@ -140,6 +140,13 @@ std::string shown(std::string_view token) {
   return text + (token.size() > kLongest ? "...'" : "'");
 }
 
+std::string shown_reason(std::string_view reason) {
+  constexpr std::size_t kLongest = 120;
+  std::string text;
+  for (const char c : reason.substr(0, kLongest)) text += c >= ' ' && c <= '~' ? c : '?';
+  return text + (reason.size() > kLongest ? "..." : "");
+}
+
 bool equals_ignoring_case(std::string_view token, std::string_view lower) {
   return std::equal(token.begin(), token.end(), lower.begin(), lower.end(),
                     [](char a, char b) { return lower_case(a) == b; });

@@ -62,6 +62,8 @@ class TextScanner {
 
 // A token as a message can show it: short, and without bytes that a terminal would act on.
 std::string shown(std::string_view token);
+// What a library says of its trouble, as part of a message: one line, without quotes.
+std::string shown_reason(std::string_view reason);
 
 // Equal but for the case of ASCII letters; `lower` is in lower case.
 bool equals_ignoring_case(std::string_view token, std::string_view lower);

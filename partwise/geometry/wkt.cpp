@@ -31,7 +31,8 @@ Polygons read_wkt(const std::string& file, const std::string& bytes) {
   GEOSGeometry* read = GEOSWKTReader_read_r(geos.context(), reader, text.c_str());
   GEOSWKTReader_destroy_r(geos.context(), reader);
   if (read == nullptr) {
-    throw InputError(file, fmt::format("is not well-known text ({})", shown(message)), "correct or export it again");
+    throw InputError(file, fmt::format("is not well-known text ({})", shown_reason(message)),
+                     "correct or export it again");
   }
   const auto geometry = geos.own(read);
   Polygons polygons;

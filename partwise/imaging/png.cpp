@@ -12,6 +12,7 @@
 
 #include "partwise/base/atomic_file.h"
 #include "partwise/base/error.h"
+#include "partwise/base/read_bytes.h"
 
 namespace partwise {
 namespace {
@@ -59,6 +60,23 @@ void append(png_structp png, png_bytep data, std::size_t size) {
   static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(data), size);
 }
 
+void take(png_structp png, png_bytep data, std::size_t size) {
+  auto& rest = *static_cast<std::string_view*>(png_get_io_ptr(png));
+  if (size > rest.size()) png_error(png, "the file ends early");
+  std::copy_n(rest.data(), size, reinterpret_cast<char*>(data));
+  rest.remove_prefix(size);
+}
+
+// A header may announce a million pixels a side, whatever follows. What was deflated grows 1032-fold at most.
+void check_size(const std::string& file, png_structp png, png_infop info, std::size_t bytes) {
+  const std::size_t width = png_get_image_width(png, info), height = png_get_image_height(png, info);
+  if (png_get_rowbytes(png, info) * height > 1032 * bytes) {
+    throw InputError(file,
+                     fmt::format("announces {} x {} pixels, more than its {} bytes can hold", width, height, bytes),
+                     "give a file that an image viewer opens");
+  }
+}
+
 }  // namespace
 
 std::string encode_png(const Image& image) {
@@ -90,38 +108,42 @@ std::string encode_png(const Image& image) {
 
 void write_png(const std::filesystem::path& path, const Image& image) { write_file(path, encode_png(image)); }
 
-Image read_png(const std::filesystem::path& path) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
-  if (!file) throw InputError(path.string(), "cannot be read", "name a file that exists");
+Image read_png(const std::filesystem::path& path) { return decode_png(path.string(), read_bytes(path)); }
+
+Image decode_png(const std::string& file, std::string_view bytes) {
   Reader reader;
   Image image;
-  std::vector<png_byte> bytes;  // 16 bits a value, big endian
+  std::string_view rest = bytes;
+  std::vector<png_byte> samples;  // 16 bits a value, big endian
   std::vector<png_bytep> rows;
   bool read = guarded(reader.png, [&] {
-    png_init_io(reader.png, file.get());
+    png_set_read_fn(reader.png, &rest, take);
     png_read_info(reader.png, reader.info);
-    png_set_expand_16(reader.png);  // palettes, few bits and colour keys become plain channels as well
-    png_set_interlace_handling(reader.png);
-    png_read_update_info(reader.png, reader.info);
   });
+  if (read) check_size(file, reader.png, reader.info, bytes.size());
+  read = read && guarded(reader.png, [&] {
+           png_set_expand_16(reader.png);  // palettes, few bits and colour keys become plain channels as well
+           png_set_interlace_handling(reader.png);
+           png_read_update_info(reader.png, reader.info);
+         });
   if (read) {
     image = Image(static_cast<int>(png_get_image_width(reader.png, reader.info)),
                   static_cast<int>(png_get_image_height(reader.png, reader.info)),
                   png_get_channels(reader.png, reader.info));
     const std::size_t row_size = png_get_rowbytes(reader.png, reader.info);
-    bytes.resize(row_size * static_cast<std::size_t>(image.height));
-    for (std::size_t row = 0; row < bytes.size(); row += row_size) rows.push_back(bytes.data() + row);
+    samples.resize(row_size * static_cast<std::size_t>(image.height));
+    for (std::size_t row = 0; row < samples.size(); row += row_size) rows.push_back(samples.data() + row);
     read = guarded(reader.png, [&] {
       png_read_image(reader.png, rows.data());
       png_read_end(reader.png, nullptr);
     });
   }
   if (!read) {
-    throw InputError(path.string(), fmt::format("is not a whole PNG file ({})", reader.error),
+    throw InputError(file, fmt::format("is not a whole PNG file ({})", reader.error),
                      "give a file that an image viewer opens");
   }
   for (std::size_t i = 0; i < image.values.size(); ++i) {
-    const float value = static_cast<float>(bytes[2 * i] * 256 + bytes[2 * i + 1]) / 65535;
+    const float value = static_cast<float>(samples[2 * i] * 256 + samples[2 * i + 1]) / 65535;
     image.values[i] = is_colour(i, image.channels) ? linear_from_srgb(value) : value;
   }
   return image;

@@ -127,6 +127,7 @@ class Chooser {
 
   std::vector<Point2> places(const std::vector<int>& vertices) const {
     std::vector<Point2> result;
+    result.reserve(vertices.size());
     for (int v : vertices) result.push_back(points_[v]);
     return result;
   }
@@ -162,6 +163,7 @@ class Chooser {
       std::vector<Resolver> singles, pairs;
       for (const auto& set : smallest_resolvers(feature.corner, places(feature.ends), settings_.tolerance)) {
         std::vector<int> ends;
+        ends.reserve(set.size());
         for (int i : set) ends.push_back(feature.ends[i]);
         (set.size() == 1 ? singles : pairs).push_back(resolver(static_cast<int>(f), ends));
       }

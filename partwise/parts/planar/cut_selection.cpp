@@ -86,6 +86,7 @@ std::vector<std::vector<int>> components(const CutProblem& problem, const std::v
   std::map<int, std::vector<int>> groups;
   for (int i : resolvers) groups[sets.find(i)].push_back(i);
   std::vector<std::vector<int>> result;
+  result.reserve(groups.size());
   for (auto& [name, members] : groups) result.push_back(std::move(members));
   return result;
 }

@@ -20,7 +20,8 @@ constexpr std::array colours{"#8ecae6", "#ffb703", "#b7e4c7", "#f4978e", "#cdb4d
 // The sheet: where the shape's coordinates go.
 class Sheet {
  public:
-  Sheet(std::span<const Polygon> shape, const PictureSettings& settings) : down_(settings.y_down) {
+  Sheet(std::span<const Polygon> shape, const PictureSettings& settings)
+      : down_(settings.y_down), ground_(settings.ground) {
     for (const Polygon& polygon : shape) {
       for (Eigen::Index i = 0; i < polygon.outer.rows(); ++i) box_.extend(Eigen::Vector2d(polygon.outer.row(i)));
     }
@@ -33,9 +34,8 @@ class Sheet {
     const Eigen::Vector2d size = scale_ * box_.sizes() + Eigen::Vector2d::Constant(2 * margin_);
     return fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.2f} "
-        "{1:.2f}\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n<rect width=\"100%\" height=\"100%\" "
-        "fill=\"#ffffff\"/>\n",
-        size.x(), size.y());
+        "{1:.2f}\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n{2}",
+        size.x(), size.y(), ground_ ? "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n" : "");
   }
 
   std::string point(const Eigen::Vector2d& p) const {
@@ -67,7 +67,7 @@ class Sheet {
 
   Eigen::AlignedBox2d box_;
   double scale_ = 1, margin_ = 0;
-  bool down_;
+  bool down_, ground_;
 };
 
 // A colour a part, none that a neighbour has where the palette suffices; used colours take turns.
@@ -91,7 +91,7 @@ std::vector<std::size_t> colour_parts(const Outline& outline) {
 
 }  // namespace
 
-void write_outline_svg(const std::filesystem::path& path, const Outline& outline, const PictureSettings& settings) {
+std::string outline_svg(const Outline& outline, const PictureSettings& settings) {
   const Sheet sheet(outline.parts, settings);
   const std::vector<std::size_t> colour = colour_parts(outline);
   std::string text = sheet.head();
@@ -103,11 +103,14 @@ void write_outline_svg(const std::filesystem::path& path, const Outline& outline
   std::string cuts;
   for (const OutlineCut& cut : outline.cuts) cuts += sheet.line(cut.a, cut.b);
   if (!cuts.empty()) text += "<path fill=\"none\" stroke=\"#b5172f\" stroke-width=\"2\" d=\"" + cuts + "\"/>\n";
-  write_file(path, text + "</svg>\n");
+  return text + "</svg>\n";
 }
 
-void write_skeleton_svg(const std::filesystem::path& path, std::span<const Polygon> shape, const Skeleton& skeleton,
-                        const PictureSettings& settings) {
+void write_outline_svg(const std::filesystem::path& path, const Outline& outline, const PictureSettings& settings) {
+  write_file(path, outline_svg(outline, settings));
+}
+
+std::string skeleton_svg(std::span<const Polygon> shape, const Skeleton& skeleton, const PictureSettings& settings) {
   const Sheet sheet(shape, settings);
   std::string text = sheet.head();
   for (const Polygon& polygon : shape) {
@@ -127,7 +130,12 @@ void write_skeleton_svg(const std::filesystem::path& path, std::span<const Polyg
                         at.substr(blank + 1), node.kind == SkeletonNodeKind::part ? 4 : 2.5,
                         node.kind == SkeletonNodeKind::part ? "#e63946" : "#1d3557");
   }
-  write_file(path, text + "</svg>\n");
+  return text + "</svg>\n";
+}
+
+void write_skeleton_svg(const std::filesystem::path& path, std::span<const Polygon> shape, const Skeleton& skeleton,
+                        const PictureSettings& settings) {
+  write_file(path, skeleton_svg(shape, skeleton, settings));
 }
 
 void write_skeleton_geojson(const std::filesystem::path& path, const Skeleton& skeleton) {

@@ -133,7 +133,7 @@ std::vector<int> approximate_chain(std::span<const Point2> points, IndexRing cha
   }
   std::vector<int> kept;
   std::size_t at = n - 1;
-  for (auto round = before.rbegin(); round != before.rend(); ++round) kept.push_back(chain[at = (*round)[at]]);
+  for (std::size_t round = before.size(); round-- > 0;) kept.push_back(chain[at = before[round][at]]);
   std::reverse(kept.begin(), kept.end());
   return kept;
 }

@@ -11,12 +11,6 @@
 namespace partwise {
 namespace {
 
-bool is_png(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending == ".png";
-}
-
 std::vector<float> coverage(const Image& image) {
   std::vector<float> values(static_cast<std::size_t>(image.width) * image.height);
   const bool colour = image.channels >= 3, alpha = image.channels % 2 == 0;
@@ -30,14 +24,23 @@ std::vector<float> coverage(const Image& image) {
 
 }  // namespace
 
+bool is_png_name(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending == ".png";
+}
+
 PolygonFile read_shape(const std::filesystem::path& path, const PolygonReadSettings& settings) {
-  if (!is_png(path)) return read_polygons(path, settings);
-  const Image image = read_png(path);
-  Polygons polygons = trace_contours(coverage(image), image.width, image.height);
+  if (!is_png_name(path)) return read_polygons(path, settings);
+  return mask_shape(read_png(path), settings.repair, path.string());
+}
+
+PolygonFile mask_shape(const Image& mask, bool repair, const std::string& place) {
+  Polygons polygons = trace_contours(coverage(mask), mask.width, mask.height);
   if (polygons.empty()) {
-    throw InputError(path.string(), "has no pixel above one half", "paint the inside white, the outside black");
+    throw InputError(place, "has no pixel above one half", "paint the inside white, the outside black");
   }
-  return valid_polygons(std::move(polygons), settings.repair, path.string());
+  return valid_polygons(std::move(polygons), repair, place);
 }
 
 }  // namespace partwise

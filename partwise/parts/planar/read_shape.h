@@ -9,9 +9,16 @@
 #include <filesystem>
 
 #include "partwise/geometry/polygon_io.h"
+#include "partwise/imaging/image.h"
 
 namespace partwise {
 
 PolygonFile read_shape(const std::filesystem::path& path, const PolygonReadSettings& settings = {});
+
+// Whether the name ends in .png, in any case of letters.
+bool is_png_name(const std::filesystem::path& path);
+
+// The shape of a mask that is in memory; `place` is named in messages.
+PolygonFile mask_shape(const Image& mask, bool repair, const std::string& place);
 
 }  // namespace partwise

@@ -138,6 +138,7 @@ std::vector<Region> RegionMesh::split(std::span<const Point2> points,
     }
   }
   std::vector<Region> result;
+  result.reserve(bounds.size());
   for (auto& edges : bounds) result.push_back(trace_region(points, std::move(edges)));
   return result;
 }

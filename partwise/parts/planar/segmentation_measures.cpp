@@ -65,6 +65,7 @@ Clustering k_means(const std::vector<CutLine>& lines, std::size_t k, std::mt1993
   result.centres.push_back(lines[random() % lines.size()]);
   while (result.centres.size() < k) {  // k-means++ (Arthur, Vassilvitskii 2007)
     std::vector<double> sums;
+    sums.reserve(lines.size());
     double sum = 0;
     for (const CutLine& line : lines) {
       sums.push_back(sum += (result.centres[nearest(result.centres, line)] - line).squaredNorm());
@@ -74,6 +75,7 @@ Clustering k_means(const std::vector<CutLine>& lines, std::size_t k, std::mt1993
   }
   for (int round = 0; round < 100; ++round) {
     std::vector<int> owner;
+    owner.reserve(lines.size());
     for (const CutLine& line : lines) owner.push_back(nearest(result.centres, line));
     if (owner == result.owner) break;
     result.owner = std::move(owner);
@@ -92,8 +94,8 @@ Clustering k_means(const std::vector<CutLine>& lines, std::size_t k, std::mt1993
 
 }  // namespace
 
-LabelGrid label_grid(std::span<const Polygon> parts, const Eigen::Vector2d& low, const Eigen::Vector2d& high,
-                     int size) {
+LabelGrid label_grid(std::span<const Polygon> parts, const Eigen::Vector2d& low, const Eigen::Vector2d& high, int size,
+                     std::span<const int> owner) {
   LabelGrid grid;
   grid.size = size, grid.low = low, grid.cell = (high - low) / size;
   grid.labels.assign(static_cast<std::size_t>(size) * size, -1);
@@ -104,8 +106,9 @@ LabelGrid label_grid(std::span<const Polygon> parts, const Eigen::Vector2d& low,
     for (int line = 0; line < samples; ++line) {
       const double y = low.y() + (row * samples + line + 0.5) * step.y();
       for (std::size_t p = 0; p < parts.size(); ++p) {
+        const int part = owner.empty() ? static_cast<int>(p) : owner[p];
         scan(parts[p], y, low.x() + 0.5 * step.x(), step.x(), size * samples,
-             [&](int column) { ++counts[column / samples][static_cast<int>(p)]; });
+             [&](int column) { ++counts[column / samples][part]; });
       }
     }
     for (int column = 0; column < size; ++column) {

@@ -13,7 +13,8 @@
 namespace partwise {
 
 // Parts on a regular grid that tightly bounds a box: the index of the part that holds the most of a cell, or -1 where
-// not more than half of the cell lies in parts. Areas of cells are counted by 4 x 4 points.
+// not more than half of the cell lies in parts. Areas of cells are counted by 4 x 4 points. Each polygon is a part, or
+// belongs to the part that `owner` names.
 struct LabelGrid {
   int size = 200;
   Eigen::Vector2d low = Eigen::Vector2d::Zero(), cell = Eigen::Vector2d::Ones();
@@ -21,7 +22,7 @@ struct LabelGrid {
 };
 
 LabelGrid label_grid(std::span<const Polygon> parts, const Eigen::Vector2d& low, const Eigen::Vector2d& high,
-                     int size = 200);
+                     int size = 200, std::span<const int> owner = {});
 
 // The share of pairs of cells, valid in both, that both put into one part or both into two. Errors: InputError where
 // fewer than two cells are valid in both; CheckFailed for grids of different size.

@@ -42,6 +42,7 @@ std::vector<std::vector<const OutlineCut*>> joined_cuts(const std::vector<Outlin
   std::map<int, std::vector<const OutlineCut*>> groups;
   for (std::size_t c = 0; c < cuts.size(); ++c) groups[sets.find(static_cast<int>(c))].push_back(&cuts[c]);
   std::vector<std::vector<const OutlineCut*>> result;
+  result.reserve(groups.size());
   for (auto& [name, members] : groups) result.push_back(std::move(members));
   return result;
 }
