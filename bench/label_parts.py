@@ -99,7 +99,9 @@ class Tips:
     """The longest tips of a mesh, longest first: their vertices, how high each is (along the axis that is up), how far from the
     centre, and how far from each other along the surface."""
 
-    def __init__(self, mesh, count, up):
+    def __init__(self, mesh, count, lying):
+        up = 2 if lying else 1
+        self.stands = not lying
         height = from_centre(mesh.lists)
         self.vertices = [v for _, v in tips(mesh.lists, height)[:count]]
         self.up = {v: mesh.vertices[v][up] for v in self.vertices}
@@ -110,9 +112,6 @@ class Tips:
 
     def lowest(self, count):
         return sorted(self.vertices, key=self.up.get)[:count]
-
-    def farthest_pair(self, among):
-        return max(((a, b) for i, a in enumerate(among) for b in among[:i]), key=lambda pair: self.apart[pair[0]][pair[1]])
 
     def loneliness(self, v):
         return sum(self.apart[v].values())
@@ -126,13 +125,6 @@ def of_person(found):
     """Legs are farthest from all other tips along the surface, the head is nearest."""
     head, arm, other_arm, *legs = sorted(found.vertices, key=found.loneliness)
     return {head: "head", arm: "arm", other_arm: "arm"} | named(legs, "leg", ())
-
-
-def of_bear(found):
-    """Legs are lowest; the arms are the two others that are farthest apart; ears and nose belong to the head."""
-    legs = found.lowest(2)
-    others = [v for v in found.vertices if v not in legs]
-    return named(legs, "leg", ()) | named(found.farthest_pair(others), "arm", others, "head")
 
 
 def of_insect(found):
@@ -166,11 +158,12 @@ def winged(found):
 
 
 def four_legged(found):
+    """The lowest four where the animal stands, else two pairs that mirror each other."""
     first, second = mirror_pairs(found, 2)
-    return named(first + second, "leg", found.vertices)
+    return named(found.lowest(4) if found.stands else first + second, "leg", found.vertices)
 
 
-def of_armadillo(found):
+def upright(found):
     """Arms are the higher of two pairs."""
     legs, arms = sorted(mirror_pairs(found, 2), key=lambda pair: sum(found.up[v] for v in pair))
     return named(legs, "leg", found.vertices) | named(arms, "arm", ())
@@ -187,13 +180,13 @@ KINDS = {  # category: how many tips, and their names
     "ant": (8, of_insect),
     "chair": (8, standing),
     "octopus": (8, lambda found: named(found.vertices, "leg", ())),
-    "teddy": (7, of_bear),
+    "teddy": (7, upright),
     "hand": (6, fingers),
     "bird": (4, winged),
-    "armadillo": (7, of_armadillo),
+    "armadillo": (7, upright),
     "fourleg": (6, four_legged),
 }
-LYING = {"104", "105", "106"}  # meshes whose z is up
+LYING = {"104", "105", "106", "382", "383", "386", "389"}  # y is not up; in the chairs z is
 
 
 class Mesh:
@@ -207,9 +200,9 @@ class Mesh:
         self.sides = [pair[:2] for pair in edges.values() if len(pair) > 1]
         self.face_of = {v: number for number, face in enumerate(self.faces) for v in face}
 
-    def named_tips(self, category, up):
+    def named_tips(self, category, lying):
         count, names = KINDS[category]
-        return names(Tips(self, count, up))
+        return names(Tips(self, count, lying))
 
     def segment_graph(self, labels):
         graph = defaultdict(set)
@@ -290,7 +283,7 @@ def face_kinds(mesh_path, seg_dir):
     if category in BY_SEGMENTS:
         kinds_of = BY_SEGMENTS[category]
     else:
-        tips_named = mesh.named_tips(category, 2 if mesh_path.stem in LYING else 1)
+        tips_named = mesh.named_tips(category, mesh_path.stem in LYING)
 
         def kinds_of(mesh, labels):
             return kinds_by_tips(mesh, labels, tips_named)

@@ -42,11 +42,13 @@ void expect_valid(const Matching& found, const Eigen::MatrixXd& weights) {
 TEST(MaximumMatching, EqualsTryingEverything) {
   std::mt19937 random(7);
   for (int trial = 0; trial < 600; ++trial) {
-    const auto rows = std::uniform_int_distribution(1, 6)(random), columns = std::uniform_int_distribution(1, 6)(random);
+    const auto rows = std::uniform_int_distribution(1, 6)(random),
+               columns = std::uniform_int_distribution(1, 6)(random);
     Eigen::MatrixXd weights(rows, columns);
     // Every third with many ties and zeros.
     for (double& weight : weights.reshaped()) {
-      weight = trial % 3 == 0 ? std::uniform_int_distribution(0, 2)(random) : std::uniform_real_distribution(0., 1.)(random);
+      weight =
+          trial % 3 == 0 ? std::uniform_int_distribution(0, 2)(random) : std::uniform_real_distribution(0., 1.)(random);
     }
     const Matching found = maximum_weight_matching(weights);
     expect_valid(found, weights);

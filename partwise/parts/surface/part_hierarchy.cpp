@@ -1,5 +1,7 @@
 #include "partwise/parts/surface/part_hierarchy.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -18,6 +20,17 @@ void require(const Mesh& mesh, std::span<const int> labels, const Eigen::VectorX
   require_label_per_face(mesh, labels, "labels");
   if (values.size() != mesh.faces.rows() || !values.allFinite()) {
     throw InputError("values", "there is not one finite number a face", "give continuous visibility of this mesh");
+  }
+  std::vector<bool> seen(labels.size() + 1, false);
+  for (const int label : labels) {
+    if (label < 0 || static_cast<std::size_t>(label) >= labels.size()) {
+      throw InputError("labels", fmt::format("one is {}", label), "number the parts from 0");
+    }
+    seen[static_cast<std::size_t>(label)] = true;
+  }
+  const auto first_unused = std::ranges::find(seen, false);
+  if (std::find(first_unused, seen.end(), true) != seen.end()) {
+    throw InputError("labels", "a number below the highest is not in use", "number the parts from 0 without gaps");
   }
   if (settings.bins < 2 || !(settings.octaves > 0)) {
     throw InputError("settings", "a histogram needs two bins and a range", "leave them as they are");
@@ -112,7 +125,8 @@ class TreeBuilder {
   std::vector<int> top_;  // of each part, the highest node above it
 };
 
-std::vector<int> tree_of(const std::vector<Link>& links, const Eigen::VectorXd& levels, const std::vector<double>& steps) {
+std::vector<int> tree_of(const std::vector<Link>& links, const Eigen::VectorXd& levels,
+                         const std::vector<double>& steps) {
   const int parts = static_cast<int>(levels.size());
   TreeBuilder tree(parts);
   DisjointSets sets(static_cast<std::size_t>(parts));

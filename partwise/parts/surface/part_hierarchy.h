@@ -1,5 +1,5 @@
-// The parts of a mesh as a tree, each node with a histogram of continuous visibility (section 2.2.4.4 of Liu 2017, after
-// Shapira, Shalom, Shamir, Cohen-Or, Zhang 2010, *Contextual part analogies in 3D objects*).
+// The parts of a mesh as a tree, each node with a histogram of continuous visibility (section 2.2.4.4 of Liu 2017,
+// after Shapira, Shalom, Shamir, Cohen-Or, Zhang 2010, *Contextual part analogies in 3D objects*).
 //
 // The parts of a segmentation are the leaves, the whole mesh is the root. The text leaves open what is between them;
 // here it is this. The level of a face is log2 of its value over the mesh's area, so that levels do not depend on the
@@ -26,9 +26,9 @@
 namespace partwise {
 
 struct HierarchySettings {
-  int bins = 32;        // of a histogram, at least 2
-  double octaves = 10;  // bins range over shares of 2^-octaves .. 1 of the area; less counts as the least
-  std::vector<double> steps = {0.5, 1, 2};  // octaves, ascending
+  int bins = 32;                    // of a histogram, at least 2
+  double octaves = 10;              // bins range over shares of 2^-octaves .. 1 of the area; less counts as the least
+  std::vector<double> steps = {1};  // octaves, ascending
 };
 
 struct PartHierarchy {
@@ -42,7 +42,8 @@ struct PartHierarchy {
   std::vector<int> root_path(int part) const;
 };
 
-// labels: of each face, 0 .. parts - 1, each in use; values: of each face, continuous visibility in model units squared.
+// labels: of each face, 0 .. parts - 1, each in use; values: of each face, continuous visibility in model units
+// squared.
 PartHierarchy part_hierarchy(const Mesh& mesh, std::span<const int> labels, const Eigen::VectorXd& values,
                              const HierarchySettings& settings = {});
 

@@ -1,15 +1,15 @@
 // Parts like a given part, of other meshes: part-based retrieval (section 2.2.4.4).
 //
 // Two parts are compared with what they belong to. Between the nodes of the two paths from the parts up to the roots of
-// their hierarchies (part_hierarchy.h) each pair has a weight in [0, 1], how alike its histograms are; the maximum-weight
-// matching (maximum_matching.h) of the two paths is the score. Over the mean length of the paths it is a similarity in
-// [0, 1], symmetric, and 1 for a part with itself.
+// their hierarchies (part_hierarchy.h) each pair has a weight in [0, 1], how alike its histograms are; the
+// maximum-weight matching (maximum_matching.h) of the two paths is the score. Over the mean length of the paths it is a
+// similarity in [0, 1], symmetric, and 1 for a part with itself.
 //
 // The weight of two nodes is the common area of their histograms over the joint area, sum of minima over sum of maxima:
 // 1 when both show the same share of their meshes at every level of visibility. Form and size count at once.
 //
-// Meshes of any scale and position; segments are those of partwise::segment with SurfaceFeature::visibility_average, its
-// fitted settings and seed 0, so that parts have the numbers that `partwise segment --feature cvf-avg` gives them.
+// Meshes of any scale and position; segments are those of partwise::segment with SurfaceFeature::visibility_average,
+// its fitted settings and seed 0, so that parts have the numbers that `partwise segment --feature cvf-avg` gives them.
 #pragma once
 
 #include <Eigen/Core>
