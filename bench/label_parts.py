@@ -9,9 +9,9 @@ OUT_DIR/N.kinds gets a line a face: the kind of part it belongs to, or -. The ru
    The longest tips count, as many as the category has limbs.
 2. Names, by category (KINDS), from where tips are and how far apart along the surface.
 3. Limbs. In each person's segmentation the segments on the shortest chains of neighbours between all *other* tips are the
-   body; what hangs together with the tip without it is the tip's limb. Cups and tables have no tips: a handle is every segment
+   body; what hangs together with the tip without it is the tip's limb. Cups, tables and teddies have no tips: a handle is every segment
    whose centroid lies aside, by over 0.6 of the mean horizontal radius of the largest segment; a leg of a table is what hangs
-   together without the largest segment and has under a quarter of the faces.
+   together without the largest segment and has under a quarter of the faces; teddies' limbs are told apart by height.
 4. A face has the kind that more than half of the people give it.
 """
 
@@ -180,7 +180,6 @@ KINDS = {  # category: how many tips, and their names
     "ant": (8, of_insect),
     "chair": (8, standing),
     "octopus": (8, lambda found: named(found.vertices, "leg", ())),
-    "teddy": (7, upright),
     "hand": (6, fingers),
     "bird": (4, winged),
     "armadillo": (7, upright),
@@ -204,12 +203,18 @@ class Mesh:
         count, names = KINDS[category]
         return names(Tips(self, count, lying))
 
-    def segment_graph(self, labels):
-        graph = defaultdict(set)
+    def segment_graph(self, labels, least=0.0):
+        """Neighbours of each segment: those with which it shares more than `least` of its border, or they with it."""
+        borders, whole = Counter(), Counter()
         for a, b in self.sides:
             if labels[a] != labels[b]:
-                graph[labels[a]].add(labels[b])
-                graph[labels[b]].add(labels[a])
+                for one, other in ((labels[a], labels[b]), (labels[b], labels[a])):
+                    borders[one, other] += 1
+                    whole[one] += 1
+        graph = defaultdict(set)
+        for (one, other), count in borders.items():
+            if count > least * min(whole[one], whole[other]):
+                graph[one].add(other)
         return graph
 
 
@@ -277,6 +282,30 @@ def table_legs(mesh, labels):
     return kinds
 
 
+def bear_limbs(mesh, labels):
+    """The body is the segment about which the fifth largest limb is largest; of the five legs are lowest and the head is highest,
+    by mean height."""
+    graph, faces_of = mesh.segment_graph(labels, 0.2), defaultdict(list)  # hands may touch the head
+    for number, label in enumerate(labels):
+        faces_of[label].append(number)
+
+    def size(each):
+        return sum(len(faces_of[s]) for s in each)
+
+    def limbs(body):
+        found = {frozenset(limb(graph, segment, {body})) for segment in faces_of if segment != body}
+        return sorted(found, key=lambda each: (-size(each), min(each)))[:5]
+    largest = max(map(limbs, faces_of), key=lambda found: size(found[4]) if len(found) == 5 else 0)
+    if len(largest) < 5:  # this person did not cut all limbs off
+        return {}
+
+    def height(each):
+        heights = [mesh.vertices[mesh.faces[number][0]][1] for s in each for number in faces_of[s]]
+        return sum(heights) / len(heights)
+    order = sorted(largest, key=height)
+    return {s: kind for each, kind in zip(order, ("leg", "leg", "arm", "arm", "head")) for s in each}
+
+
 def face_kinds(mesh_path, seg_dir):
     mesh = Mesh(mesh_path)
     category = meshes.princeton_category(mesh_path)
@@ -302,7 +331,7 @@ def face_kinds(mesh_path, seg_dir):
     return result
 
 
-BY_SEGMENTS = {"cup": handles, "table": table_legs}
+BY_SEGMENTS = {"cup": handles, "table": table_legs, "teddy": bear_limbs}
 
 
 def main(words):
