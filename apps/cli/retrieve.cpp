@@ -105,6 +105,7 @@ void retrieve(const Options& options, Run& run) {
   const std::vector<const DatabaseMesh*> meshes = searched(database, content, options.others);
   const std::vector<PartMatch> matches = run.stage("search", [&] {
     std::vector<const PartIndex*> indices;
+    indices.reserve(meshes.size());
     for (const DatabaseMesh* mesh : meshes) indices.push_back(&mesh->index);
     return similar_parts(query_index, options.part, indices, options.top);
   });
