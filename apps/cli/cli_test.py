@@ -555,6 +555,115 @@ class Segment(CommandLine):
             self.assertIn(word, result.stdout)
 
 
+class Retrieve(CommandLine):
+    """A folder of two dumb-bells of cubes, one of them twice as large, and a box."""
+
+    def setUp(self):
+        super().setUp()
+        self.database = self.folder / "database"
+        (self.database / "more").mkdir(parents=True)
+        for name, mesh in (("bells.off", self.bells()), ("more/large.off", self.bells(2)), ("box.off", self.grid(
+                {(x, y, z) for x in range(4) for y in range(4) for z in range(4)}))):
+            (self.database / name).write_text(mesh)
+
+    def bells(self, scale=1):
+        cube = {(x, y, z) for x in range(4) for y in range(4) for z in range(4)}
+        return self.grid(cube | {(x + 10, y, z) for x, y, z in cube} | {(x, 1, 1) for x in range(4, 10)}, scale)
+
+    def grid(self, cells, scale=1):
+        """The surface of unit cells, as OFF."""
+        vertices, faces = {}, []
+        corner = lambda *p: vertices.setdefault(p, len(vertices))  # noqa: E731
+        for cell in sorted(cells):
+            for axis in range(3):
+                for side in (0, 1):
+                    beyond = list(cell)
+                    beyond[axis] += 2 * side - 1
+                    if tuple(beyond) in cells:
+                        continue
+                    quad = []
+                    for u, v in ((0, 0), (1, 0), (1, 1), (0, 1)):
+                        point = list(cell)
+                        point[axis] += side
+                        point[(axis + 1) % 3] += u
+                        point[(axis + 2) % 3] += v
+                        quad.append(corner(*point))
+                    a, b, c, d = quad if side else quad[::-1]
+                    faces += [(a, b, c), (a, c, d)]
+        lines = ["OFF", f"{len(vertices)} {len(faces)} 0"]
+        lines += [" ".join(str(scale * x) for x in p) for p in vertices]
+        lines += ["3 %d %d %d" % face for face in faces]
+        return "\n".join(lines) + "\n"
+
+    def retrieve(self, part, *arguments, query="database/bells.off"):
+        return self.run_program("retrieve", query, part, "database", *arguments)
+
+    def found(self, part, *arguments, **options):
+        result = self.retrieve(part, *arguments, "--json", "-", **options)
+        self.assert_done(result)
+        return json.loads(result.stdout)
+
+    def test_finds_itself_and_its_like(self):
+        self.assert_done(self.run_program("segment", "database/bells.off", "--feature", "cvf-avg", "--labels", "bells.seg"))
+        labels = (self.folder / "bells.seg").read_text().split()
+        parts = len(set(labels))
+        self.assertGreater(parts, 1)
+        report = self.found(parts - 1, "--top", 3)
+        self.assertEqual((report["meshes"], report["indexed"], report["skipped"]), (3, 3, []))
+        first, second, _ = report["matches"]
+        self.assertEqual(list(first), ["file", "part", "similarity", "faces"])
+        self.assertEqual({first["file"], second["file"]} & {"box.off"}, set())
+        self.assertEqual(first["similarity"], 1)
+        self.assertIn(parts - 1, [m["part"] for m in report["matches"] if m["similarity"] > 0.999])
+        self.assertEqual(first["faces"], labels.count(str(first["part"])))
+        self.assertGreaterEqual(report["seconds"]["total"], 0)
+        others = self.found(parts - 1, "--others")
+        self.assertEqual(others["indexed"], 0)
+        self.assertEqual(others["matches"][0]["file"], "more/large.off")
+        self.assertNotIn("bells.off", [m["file"] for m in others["matches"]])
+        self.assertGreater(others["matches"][0]["similarity"], 0.999)
+        similarities = [m["similarity"] for m in others["matches"]]
+        self.assertEqual(similarities, sorted(similarities, reverse=True))
+        self.assertLessEqual(len(similarities), 9)
+
+    def test_index_is_kept_and_renewed(self):
+        self.assertEqual(self.found(0)["indexed"], 3)
+        kept = {p.name: p.read_bytes() for p in (self.database / ".partwise").rglob("*.json")}
+        self.assertEqual(sorted(kept), ["bells.off.parts.json", "box.off.parts.json", "large.off.parts.json"])
+        self.assertEqual(self.found(0)["indexed"], 0)
+        (self.database / "box.off").write_text(self.grid({(x, 0, 0) for x in range(5)}))
+        (self.database / "new.off").write_text("OFF\n")
+        report = self.found(0)
+        self.assertEqual(report["indexed"], 1)
+        self.assertEqual([each["file"] for each in report["skipped"]], ["new.off"])
+        other = self.found(0, "--index", "kept", "--threads", 1)
+        self.assertEqual((other["indexed"], other["matches"]), (3, report["matches"]))
+        self.assertEqual((self.folder / "kept" / "bells.off.parts.json").read_bytes(), kept["bells.off.parts.json"])
+
+    def test_a_query_from_outside_and_a_picture(self):
+        (self.folder / "mine.off").write_text(self.bells(3))
+        result = self.retrieve(0, "--glb", "row.glb", query="mine.off")
+        self.assert_done(result)
+        self.assertRegex(result.stdout, r"mine\.off: parts like part 0 in 3 meshes, 3 of them indexed now")
+        self.assertEqual((self.folder / "row.glb").read_bytes()[:4], b"glTF")
+        self.assertIn(b"match_1_part", (self.folder / "row.glb").read_bytes())
+
+    def test_what_cannot_be_done(self):
+        self.assert_refused(self.retrieve(99), 1, "no part 99", "0 (", "%")
+        self.assert_refused(self.run_program("retrieve", NOTCH, 0, "missing"), 1, "missing")
+        (self.folder / "empty").mkdir()
+        self.assert_refused(self.run_program("retrieve", NOTCH, 0, "empty"), 1, "no mesh")
+        self.assert_refused(self.retrieve(0, query="none.off"), 1, "none.off")
+        for words in (["-1"], ["leg"], [0, "--top", 0], [0, "--glb", "a.obj"]):
+            self.assert_refused(self.retrieve(*words), 2, "--help")
+
+    def test_help_teaches_with_an_example(self):
+        result = self.run_program("retrieve", "--help")
+        self.assert_done(result)
+        for word in ("QUERY", "PART", "DATABASE_DIR", "--top", "--others", "--index", "--glb", "Example:\n"):
+            self.assertIn(word, result.stdout)
+
+
 class Outputs(CommandLine):
     def test_bad_places_are_told_before_the_work(self):
         (self.folder / "a_folder").mkdir()

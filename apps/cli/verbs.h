@@ -11,11 +11,12 @@ extern const Verb decompose_verb;
 extern const Verb evaluate_verb;
 extern const Verb feature_verb;
 extern const Verb segment_verb;
+extern const Verb retrieve_verb;
 extern const Verb medial_verb;
 extern const Verb outline_verb;
 extern const Verb compare2d_verb;
 
-inline constexpr std::array verbs = {&decompose_verb, &feature_verb, &segment_verb,  &evaluate_verb,
-                                     &medial_verb,    &outline_verb, &compare2d_verb};
+inline constexpr std::array verbs = {&decompose_verb, &feature_verb, &segment_verb, &evaluate_verb,
+                                     &retrieve_verb,  &medial_verb,  &outline_verb, &compare2d_verb};
 
 }  // namespace partwise::cli
