@@ -129,17 +129,24 @@ ConvexHull convex_hull(const Vertices& points, double minimum_thickness) {
 }
 
 Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> hull_planes(const Mesh& hull) {
+  constexpr double kSliver = 1e-3;  // height, of the hull's size: rounding turns lower triangles noticeably
   Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> planes(hull.faces.rows(), 4);
   const Eigen::Matrix<double, 3, Eigen::Dynamic> corners = hull.vertices.transpose();
+  const Point middle = hull.vertices.colwise().mean();
+  const double size = (hull.vertices.colwise().maxCoeff() - hull.vertices.colwise().minCoeff()).norm();
   Eigen::Index count = 0;
   for (const auto& f : hull.faces.rowwise()) {
-    const Point a = hull.vertices.row(f[0]);
-    const Point normal = (hull.vertices.row(f[1]) - a).cross(hull.vertices.row(f[2]) - a);
+    const Point a = hull.vertices.row(f[0]), b = hull.vertices.row(f[1]), c = hull.vertices.row(f[2]);
+    const Point normal = (b - a).cross(c - a);
     const double length = normal.norm();
     if (length == 0) continue;  // A sliver between three points of a line bounds nothing.
     const Point unit = normal / length;
-    // The outermost of all corners: slivers of a flat side with many may stand across the hull or look inwards.
-    planes.row(count++) << unit, (unit * corners).maxCoeff();
+    // Of the three corners the outermost, whatever rounding did to the normal.
+    double offset = std::max({unit.dot(a), unit.dot(b), unit.dot(c)});
+    // A flat side with many corners has slivers that stand across the hull or look inwards: they hold all corners.
+    const double longest = std::max({(b - a).norm(), (c - a).norm(), (c - b).norm()});
+    if (length < kSliver * size * longest || unit.dot(middle) >= offset) offset = (unit * corners).maxCoeff();
+    planes.row(count++) << unit, offset;
   }
   planes.conservativeResize(count, 4);
   return planes;

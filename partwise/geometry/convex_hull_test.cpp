@@ -136,9 +136,13 @@ TEST(ConvexHull, PlanesOfSliversHoldTheWholeHull) {
     hull.vertices.row(4) += 1e-15 * test::random_direction(random);
     hull.vertices = (hull.vertices * test::random_rotation(random)).eval();
     hull.faces << 0, 4, 1, 0, 2, 4, 4, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3;
-    const auto planes = hull_planes(hull);
-    for (const auto& plane : planes.rowwise())
-      EXPECT_LE((hull.vertices * plane.head<3>().transpose()).maxCoeff() - plane[3], 1e-14);
+    for (const double slant : {1e-15, 0.02}) {  // a sliver; and one that is no sliver but looks inwards
+      hull.vertices.row(4) += slant * (hull.vertices.row(2) - hull.vertices.row(4));
+      if (slant > 1e-3) std::swap(hull.faces(0, 1), hull.faces(0, 2));
+      const auto planes = hull_planes(hull);
+      for (const auto& plane : planes.rowwise())
+        EXPECT_LE((hull.vertices * plane.head<3>().transpose()).maxCoeff() - plane[3], 1e-14);
+    }
   }
 }
 

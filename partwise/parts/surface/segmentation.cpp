@@ -9,9 +9,16 @@
 #include "partwise/parts/surface/shape_diameter.h"
 
 namespace partwise {
-int fitted_clusters(SurfaceFeature) { return 5; }
+namespace {
 
-double fitted_smoothness(SurfaceFeature) { return 26; }
+// A fitted smoothness that leaves a mesh whole is halved, at most so often.
+constexpr int kMostHalvings = 5;
+
+}  // namespace
+
+int fitted_clusters(SurfaceFeature) { return 8; }
+
+double fitted_smoothness(SurfaceFeature) { return 24; }
 
 Eigen::MatrixXd feature_values(const Mesh& mesh, SurfaceFeature feature, const Progress& progress) {
   const auto visibility = [&](VisibilityKind kind) {
@@ -40,6 +47,10 @@ Segmentation segment_values(const Mesh& mesh, const Eigen::MatrixXd& values, con
   clustering.by_length = clustering.by_area = true;
   clustering.seed = settings.seed;
   FaceClustering found = cluster_faces(mesh, values, clustering);
+  for (int i = 0; i < kMostHalvings && settings.smoothness < 0 && found.segments == 1; ++i) {
+    clustering.smoothness /= 2;
+    found = cluster_faces(mesh, values, clustering);
+  }
   return {.labels = std::move(found.labels),
           .parts = found.segments,
           .values = values,

@@ -2,7 +2,8 @@
 //
 // A feature is computed a face, smoothed on the graph of faces, and clustered (face_clustering.h). Two numbers decide:
 // how many clusters, and how dear borders between them are; both have values that were fitted to the Princeton
-// benchmark, one pair for all meshes. docs/segment.md says how.
+// benchmark, one pair for all meshes. docs/segment.md says how. Where the fitted smoothness leaves a mesh whole it is
+// halved until that is not so, at most five times: a surface with one value everywhere stays whole.
 //
 // Any triangle mesh with a face of positive area, faces counter-clockwise from outside. Deterministic for a seed, the
 // same for any number of threads. Errors: InputError.

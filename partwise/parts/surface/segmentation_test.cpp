@@ -43,6 +43,19 @@ TEST(Segmentation, TakesTheFittedPairUnlessToldOtherwise) {
   EXPECT_THROW(segment(mesh, {.clusters = -1}), InputError);
 }
 
+TEST(Segmentation, AFittedSmoothnessThatLeavesAMeshWholeIsHalved) {
+  // A ball with a small cap of another value, whose border costs more than it is worth.
+  const Mesh mesh = test::sphere(1, 40);
+  const Eigen::VectorXd heights = face_means(mesh, mesh.vertices.col(2));
+  const Eigen::VectorXd values = (heights.array() > 0.985).cast<double>();
+  const double fitted = fitted_smoothness(SurfaceFeature::visibility_average);
+  EXPECT_EQ(segment_values(mesh, values, {.smoothness = fitted}).parts, 1);
+  const Segmentation halved = segment_values(mesh, values);
+  EXPECT_EQ(halved.parts, 2);
+  EXPECT_LT(halved.smoothness, fitted);
+  EXPECT_EQ(segment_values(mesh, Eigen::VectorXd::Ones(mesh.faces.rows())).parts, 1);
+}
+
 TEST(Segmentation, DoesNotDependOnTheNumberOfThreads) {
   const Mesh mesh = test::dumbbell(40, 24);
   const Segmentation many = segment(mesh);
