@@ -160,7 +160,7 @@ TEST_F(PartDatabaseTest, ADamagedOrOldIndexIsMadeAnew) {
     return text.replace(text.find(from), from.size(), to);
   };
   for (const std::string& bad :
-       {std::string(), good.substr(0, good.size() / 2), replaced("\"version\":1", "\"version\":0"),
+       {std::string(), good.substr(0, good.size() / 2), replaced("\"version\":", "\"version\":9"),
         replaced("\"parents\":[", "\"parents\":[0,"), replaced("\"labels\":[0", "\"labels\":[99"),
         replaced("\"parts\":", "\"parts\":7"), std::string("[]"), std::string("{}")}) {
     std::ofstream(index_of("ball.off")) << bad;
