@@ -28,13 +28,13 @@ double mean(const std::vector<double>& values) {
 }
 
 void compare_files(const Options& options, Run& run) {
-  std::vector<Segmentation> parts;
+  std::vector<PlanarSegmentation> parts;
   run.stage("read", [&] {
     parts.push_back(read_segmentation(options.judged));
     for (const std::string& reference : options.references) parts.push_back(read_segmentation(reference));
   });
   Eigen::AlignedBox2d box;
-  for (const Segmentation& each : parts) {
+  for (const PlanarSegmentation& each : parts) {
     for (const Polygon& polygon : each.polygons) {
       for (Eigen::Index i = 0; i < polygon.outer.rows(); ++i) box.extend(Eigen::Vector2d(polygon.outer.row(i)));
     }
@@ -48,7 +48,7 @@ void compare_files(const Options& options, Run& run) {
   run.stage("compare", [&] {
     std::vector<LabelGrid> grids;
     std::vector<std::vector<CutLine>> cuts;
-    for (const Segmentation& each : parts) {
+    for (const PlanarSegmentation& each : parts) {
       grids.push_back(label_grid(each.polygons, box.min(), box.max(), options.grid, each.part));
       cuts.push_back(cut_lines(each.polygons));
     }

@@ -41,15 +41,15 @@ std::vector<int> labels_of(const Image& image, const std::string& place) {
 
 }  // namespace
 
-Segmentation read_segmentation(const std::filesystem::path& path) {
+PlanarSegmentation read_segmentation(const std::filesystem::path& path) {
   if (is_png_name(path)) return label_image_segmentation(read_png(path), path.string());
-  Segmentation result{read_parts(path), {}};
+  PlanarSegmentation result{read_parts(path), {}};
   result.part.resize(result.polygons.size());
   std::iota(result.part.begin(), result.part.end(), 0);
   return result;
 }
 
-Segmentation label_image_segmentation(const Image& image, const std::string& place) {
+PlanarSegmentation label_image_segmentation(const Image& image, const std::string& place) {
   const int width = image.width, height = image.height;
   const std::vector<int> labels = labels_of(image, place);
   const auto label = [&](int x, int y) {
@@ -80,7 +80,7 @@ Segmentation label_image_segmentation(const Image& image, const std::string& pla
       if (label(x - 1, y) != label(x, y)) own.emplace_back(below, corner);
     }
   }
-  Segmentation result;
+  PlanarSegmentation result;
   for (auto& [region, edges] : sides) {
     result.polygons.push_back(to_polygon(corners, trace_region(corners, std::move(edges))));
     result.part.push_back(labels[region]);

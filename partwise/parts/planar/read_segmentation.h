@@ -17,14 +17,14 @@
 
 namespace partwise {
 
-struct Segmentation {
+struct PlanarSegmentation {
   Polygons polygons;
   std::vector<int> part;  // of each polygon
 };
 
-Segmentation read_segmentation(const std::filesystem::path& path);
+PlanarSegmentation read_segmentation(const std::filesystem::path& path);
 
 // Parts are numbered as they come, row by row; `place` is named in messages.
-Segmentation label_image_segmentation(const Image& labels, const std::string& place);
+PlanarSegmentation label_image_segmentation(const Image& labels, const std::string& place);
 
 }  // namespace partwise

@@ -26,7 +26,7 @@ Image painted(const std::vector<std::string>& rows) {
 }
 
 TEST(LabelImage, PartsAreThePixelsOfAColour) {
-  const Segmentation parts = label_image_segmentation(painted({"aaab.", "a.abb", "aaab.", "..a.b"}), "labels");
+  const PlanarSegmentation parts = label_image_segmentation(painted({"aaab.", "a.abb", "aaab.", "..a.b"}), "labels");
   // One region of a with a hole, one of b; a lone b on the diagonal; the lower a hangs on the row above.
   ASSERT_EQ(parts.polygons.size(), 3u);
   std::map<int, double> areas;
@@ -40,7 +40,7 @@ TEST(LabelImage, PartsAreThePixelsOfAColour) {
 }
 
 TEST(LabelImage, CutsAreWhereColoursMeet) {
-  const Segmentation parts = label_image_segmentation(painted({"aabb", "aabb", "aabb", "..cc"}), "labels");
+  const PlanarSegmentation parts = label_image_segmentation(painted({"aabb", "aabb", "aabb", "..cc"}), "labels");
   const std::vector<CutLine> cuts = cut_lines(parts.polygons);
   EXPECT_THAT(cuts, testing::UnorderedElementsAre(CutLine(2, 0, 2, 3), CutLine(2, 3, 4, 3)));
 }
@@ -56,7 +56,7 @@ TEST(LabelImage, AgreesWithTheSameDecompositionAsPolygons) {
     return Polygon{ring, {}};
   };
   const Polygons same{box(0, 0, 15, 30), box(15, 0, 40, 10), box(15, 10, 40, 30)}, other{box(0, 0, 40, 30)};
-  const Segmentation parts = label_image_segmentation(image, "labels");
+  const PlanarSegmentation parts = label_image_segmentation(image, "labels");
   const auto grid = [](const Polygons& polygons, std::span<const int> owner) {
     return label_grid(polygons, {0, 0}, {40, 30}, 120, owner);
   };
@@ -67,7 +67,7 @@ TEST(LabelImage, AgreesWithTheSameDecompositionAsPolygons) {
 }
 
 TEST(LabelImage, OneColourInTwoPlacesIsOnePart) {
-  const Segmentation parts = label_image_segmentation(painted({"aabbaa"}), "labels");
+  const PlanarSegmentation parts = label_image_segmentation(painted({"aabbaa"}), "labels");
   const LabelGrid grid = label_grid(parts.polygons, {0, 0}, {6, 1}, 6, parts.part);
   EXPECT_THAT(std::vector(grid.labels.begin(), grid.labels.begin() + 6), testing::ElementsAre(0, 0, 1, 1, 0, 0));
 }
@@ -81,9 +81,9 @@ class ReadSegmentation : public testing::Test {
 TEST_F(ReadSegmentation, TakesPicturesAndPolygons) {
   const Image image = painted({"ab", "ab"});
   write_png(folder_ / "a.PNG", image);
-  const Segmentation picture = read_segmentation(folder_ / "a.PNG");
+  const PlanarSegmentation picture = read_segmentation(folder_ / "a.PNG");
   write_geojson(folder_ / "a.geojson", picture.polygons);
-  const Segmentation polygons = read_segmentation(folder_ / "a.geojson");
+  const PlanarSegmentation polygons = read_segmentation(folder_ / "a.geojson");
   ASSERT_EQ(polygons.polygons.size(), 2u);
   EXPECT_EQ(polygons.part, picture.part);
   for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(polygons.polygons[i].outer, picture.polygons[i].outer);
