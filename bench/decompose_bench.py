@@ -17,6 +17,13 @@ from harness.people import People  # noqa: E402
 from harness.process import BIN  # noqa: E402
 
 
+def share(word):
+    """A number from 0 to 1, as an argument."""
+    if not 0 <= float(word) <= 1:
+        raise argparse.ArgumentTypeError(f"{word} is not from 0 to 1")
+    return float(word)
+
+
 def parse(words):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.ArgumentDefaultsHelpFormatter)
     add = parser.add_argument
@@ -44,7 +51,7 @@ def parse(words):
     add = mode.add_argument
     add("--rotations", type=int, metavar="N", help="parts under N random rotations")
     add("--determinism", action="store_true", help="bytes for 1 and 2 threads and a second run")
-    add("--remove", type=float, nargs="+", metavar="SHARE", help="without a share of the faces")
+    add("--remove", type=share, nargs="+", metavar="SHARE", help="without a share of the faces")
     add("--fig-2-35", action="store_true", help="Rand error by tolerance (needs --seg-dir)")
     add("--tolerances", type=float, nargs="+", default=[0.04, 0.05, 0.06, 0.07, 0.08, 0.12, 0.15, 0.2],
         help="that --fig-2-35 chooses from, with 0.09 and 0.1")

@@ -242,21 +242,8 @@ Polygons decompose(const Polygons& shape, double tolerance, double seconds, Tota
   const double deadline = cpu_seconds() + seconds;
   Polygons parts;
   for (const Polygon& polygon : shape) {
-    std::vector<Point2> points;
-    std::map<std::pair<double, double>, int> names;
-    const auto ring = [&](const Ring& corners) {
-      IndexRing indices;
-      for (Eigen::Index i = 0; i < corners.rows(); ++i) {
-        const auto [name, fresh] = names.try_emplace({corners(i, 0), corners(i, 1)}, static_cast<int>(points.size()));
-        if (fresh) points.emplace_back(corners.row(i).transpose());
-        indices.push_back(name->second);
-      }
-      return indices;
-    };
-    Region region;
-    region.outer = ring(polygon.outer);
-    for (const Ring& hole : polygon.holes) region.holes.push_back(ring(hole));
-    for (Polygon& part : Decomposer(points, std::move(region), tolerance, deadline).decompose(totals)) {
+    IndexedPolygon indexed = to_region(polygon);
+    for (Polygon& part : Decomposer(indexed.points, std::move(indexed.region), tolerance, deadline).decompose(totals)) {
       parts.push_back(std::move(part));
     }
   }

@@ -13,7 +13,6 @@
 #include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <chrono>
-#include <map>
 #include <set>
 
 #include "partwise/parts/planar/hierarchical_concavity.h"
@@ -130,20 +129,7 @@ class Peer {
 Polygons decompose(const Polygons& shape, double tolerance) {
   Polygons parts;
   for (const Polygon& polygon : shape) {
-    std::vector<Point2> points;
-    std::map<std::pair<double, double>, int> names;
-    const auto ring = [&](const Ring& corners) {
-      IndexRing indices;
-      for (Eigen::Index i = 0; i < corners.rows(); ++i) {
-        const auto [name, fresh] = names.try_emplace({corners(i, 0), corners(i, 1)}, static_cast<int>(points.size()));
-        if (fresh) points.emplace_back(corners.row(i).transpose());
-        indices.push_back(name->second);
-      }
-      return indices;
-    };
-    Region region;
-    region.outer = ring(polygon.outer);
-    for (const Ring& hole : polygon.holes) region.holes.push_back(ring(hole));
+    const auto [points, region] = to_region(polygon);
     const Peer peer(points, tolerance);
     for (const Region& part : peer.decompose(region)) parts.push_back(to_polygon(peer.points(), part));
   }

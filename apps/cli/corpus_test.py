@@ -1,7 +1,7 @@
-"""Replays the corpus of bad and odd files with the program: what can be decomposed gives every output that was asked for,
-what cannot gives exit 1 and one line that holds the expected words, and nothing takes long.
+"""Replays a corpus of bad and odd files with the program: what can be used gives every output that was asked for, what
+cannot gives exit 1 and one line that holds the expected words, and nothing takes long.
 
-    corpus_test.py PROGRAM CORPUS_FOLDER
+    corpus_test.py PROGRAM CORPUS_FOLDER Meshes|Outlines
 """
 
 import json
@@ -13,39 +13,65 @@ from pathlib import Path
 
 PROGRAM = ""
 CORPUS = Path()
-SECONDS = 60
 
 
-class Corpus(unittest.TestCase):
+class Corpus:
+    """What both have in common; `outputs` are options and the names of their files."""
+
     def test_every_file(self):
         cases = json.loads((CORPUS / "expected.json").read_text())
-        self.assertGreaterEqual(len(cases), 40)
+        self.assertGreaterEqual(len(cases), self.least)
         for case in cases:
             with self.subTest(file=case["file"]), tempfile.TemporaryDirectory(prefix="partwise-corpus-") as folder:
-                self.replay(CORPUS / case["file"], case["decompose"], Path(folder))
+                self.replay(case, Path(folder))
 
-    def replay(self, mesh, expected, folder):
-        outputs = {option: folder / name for option, name in (("--labels", "a.seg"), ("--hulls", "a.obj"), ("--json", "a.json"))}
-        arguments = [str(part) for pair in outputs.items() for part in pair]
+    def replay(self, case, folder):
+        arguments = [str(part) for option, name in self.outputs.items() for part in (option, folder / name)]
         result = subprocess.run(
-            [PROGRAM, "decompose", mesh, "--tolerance", "0.1", *arguments],
-            capture_output=True, timeout=SECONDS, encoding="utf-8", errors="replace",
+            [PROGRAM, self.verb, CORPUS / case["file"], "--tolerance", "0.1", *arguments],
+            capture_output=True, timeout=self.seconds, encoding="utf-8", errors="replace",
         )
         left = {path.name for path in folder.iterdir()}
-        if expected == "ok":
+        words = self.refusal(case)
+        if words is None:
             self.assertEqual((result.returncode, result.stderr), (0, ""))
-            self.assertEqual(left, {path.name for path in outputs.values()})
-            report = json.loads(outputs["--json"].read_text())
-            labels = outputs["--labels"].read_text().split()
-            self.assertEqual(len(labels), report["faces"])
-            self.assertEqual(len(set(labels)), report["parts"])
+            self.assertEqual(left, set(self.outputs.values()))
+            self.check(case, folder, json.loads((folder / self.outputs["--json"]).read_text()))
         else:
             self.assertEqual(result.returncode, 1, result.stderr)
             self.assertEqual(result.stdout, "")
             self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
-            self.assertIn(expected, result.stderr)
-            self.assertIn(mesh.name, result.stderr)
+            self.assertIn(words, result.stderr)
+            self.assertIn(case["file"], result.stderr)
             self.assertEqual(left, set())
+
+
+class Meshes(Corpus, unittest.TestCase):
+    verb, least, seconds = "decompose", 40, 60
+    outputs = {"--labels": "a.seg", "--hulls": "a.obj", "--json": "a.json"}
+
+    def refusal(self, case):
+        return None if case["decompose"] == "ok" else case["decompose"]
+
+    def check(self, case, folder, report):
+        labels = (folder / "a.seg").read_text().split()
+        self.assertEqual(len(labels), report["faces"])
+        self.assertEqual(len(set(labels)), report["parts"])
+
+
+class Outlines(Corpus, unittest.TestCase):
+    verb, least, seconds = "outline", 60, 20
+    outputs = {"--parts": "a.geojson", "--svg": "a.svg", "--skeleton": "b.svg", "--json": "a.json"}
+
+    def refusal(self, case):
+        return case.get("error")
+
+    def check(self, case, folder, report):
+        self.assertAlmostEqual(report["area"], case["area"], places=5)
+        self.assertEqual(len(report["holes"]), case["holes"])
+        self.assertEqual(report["repaired"], case.get("repaired"))
+        self.assertLessEqual(report["concavity"], 0.1)
+        self.assertEqual(len(json.loads((folder / "a.geojson").read_text())["features"]), report["parts"])
 
 
 if __name__ == "__main__":

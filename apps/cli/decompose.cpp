@@ -77,15 +77,11 @@ void report(const Options& options, const Decomposition& result, Run& run) {
   json["cut_inside"] = result.cut_inside;
   json["faces"] = result.labels.size();
   json["input"] = options.mesh;
-  json["files"] = nlohmann::ordered_json::object();
-  std::string written;
-  for (const auto& [name, file] :
-       {std::pair("labels", &options.labels), std::pair("hulls", &options.hulls), std::pair("glb", &options.glb),
-        std::pair("urdf", &options.urdf), std::pair("mjcf", &options.mjcf)}) {
-    if (file->empty()) continue;
-    json["files"][name] = *file;
-    written += (written.empty() ? "\nwrote " : ", ") + *file;
-  }
+  const std::string written = run.report_files({{"labels", options.labels},
+                                                {"hulls", options.hulls},
+                                                {"glb", options.glb},
+                                                {"urdf", options.urdf},
+                                                {"mjcf", options.mjcf}});
   const char* unit = options.settings.absolute ? "" : " R";
   const std::string ratio = std::isfinite(result.volume_ratio)
                                 ? fmt::format(", union of hulls {:.4g} x the volume", result.volume_ratio)

@@ -54,13 +54,7 @@ void report(const Options& options, const VisibilityFeature& feature, Run& run) 
   if (options.kind && options.kind != VisibilityKind::weak) json["method"] = name_of(methods, options.settings.method);
   json["vertices"] = feature.values.size();
   json["input"] = options.mesh;
-  json["files"] = nlohmann::ordered_json::object();
-  std::string written;
-  for (const auto& [name, file] : {std::pair("values", &options.values), std::pair("glb", &options.glb)}) {
-    if (file->empty()) continue;
-    json["files"][name] = *file;
-    written += (written.empty() ? "\nwrote " : ", ") + *file;
-  }
+  const std::string written = run.report_files({{"values", options.values}, {"glb", options.glb}});
   const std::string effort = options.kind ? fmt::format(", by {} visibility tests", feature.tests) : "";
   run.summary = fmt::format("{}: {} of {} vertices, {:.6g} to {:.6g}{}{}", options.mesh, kind, feature.values.size(),
                             feature.values.minCoeff(), feature.values.maxCoeff(), effort, written);

@@ -52,10 +52,8 @@ void medial_samples_of_file(const Options& options, Run& run) {
   run.report["spacing"] = settings.spacing;
   run.report["least_angle"] = options.least_angle;
   run.report["input"] = options.mesh;
-  run.report["files"] = nlohmann::ordered_json::object();
-  if (!options.points.empty()) run.report["files"]["points"] = options.points;
-  run.summary = fmt::format("{}: {} points of the medial axis{}", options.mesh, samples.radii.size(),
-                            options.points.empty() ? "" : "\nwrote " + options.points);
+  const std::string written = run.report_files({{"points", options.points}});
+  run.summary = fmt::format("{}: {} points of the medial axis{}", options.mesh, samples.radii.size(), written);
 }
 
 Action add(CLI::App& command) {

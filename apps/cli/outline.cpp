@@ -66,14 +66,8 @@ void report(const Options& options, const PolygonFile& file, const Outline& resu
                              {"concavity", hole.concavity},
                              {"class", hole.noise ? "noise" : "structure"}});
   }
-  json["files"] = nlohmann::ordered_json::object();
-  std::string written;
-  for (const auto& [name, path] :
-       {std::pair("parts", &options.parts), std::pair("svg", &options.svg), std::pair("skeleton", &options.skeleton)}) {
-    if (path->empty()) continue;
-    json["files"][name] = *path;
-    written += (written.empty() ? "\nwrote " : ", ") + *path;
-  }
+  const std::string written =
+      run.report_files({{"parts", options.parts}, {"svg", options.svg}, {"skeleton", options.skeleton}});
   const char* unit = options.settings.absolute ? "" : " R";
   const std::string holes = result.holes.empty()
                                 ? ""

@@ -54,12 +54,11 @@ void report(const Options& options, const PartDatabase& database, const std::vec
     json["skipped"].push_back({{"file", file.string()}, {"reason", reason}});
   }
   json["input"] = options.query;
-  json["files"] = nlohmann::ordered_json::object();
-  if (!options.glb.empty()) json["files"]["glb"] = options.glb;
+  const std::string written = run.report_files({{"glb", options.glb}});
   run.summary = fmt::format("{}: parts like part {} in {} meshes, {} of them indexed now{}{}{}", options.query,
                             options.part, database.meshes.size(), database.indexed,
                             database.skipped.empty() ? "" : fmt::format(", {} left out", database.skipped.size()),
-                            lines, options.glb.empty() ? "" : "\nwrote " + options.glb);
+                            lines, written);
 }
 
 // Moves a mesh to place `slot` of a row along x, its bounding sphere of radius 1 at y = z = 0; the part is coloured.

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -19,6 +20,19 @@ struct Run {
   std::string summary;                                                // for people, on standard output
   nlohmann::ordered_json report = nlohmann::ordered_json::object();   // for programs, --json
   nlohmann::ordered_json seconds = nlohmann::ordered_json::object();  // wall time by stage, part of the report
+
+  // Adds `files` to the report: of each option the file that was written, if one was asked for. Returns a line of the
+  // summary that names them, empty for none.
+  std::string report_files(std::initializer_list<std::pair<const char*, std::string>> files) {
+    std::string written;
+    report["files"] = nlohmann::ordered_json::object();
+    for (const auto& [option, file] : files) {
+      if (file.empty()) continue;
+      report["files"][option] = file;
+      written += (written.empty() ? "\nwrote " : ", ") + file;
+    }
+    return written;
+  }
 
   // Runs `work` as a stage: polls for Ctrl-C, adds the wall time to `seconds`, returns what `work` returns.
   template <typename Work>

@@ -35,13 +35,7 @@ void report(const Options& options, const Segmentation& result, Run& run) {
   json["feature"] = name_of(features, options.settings.feature);
   json["faces"] = result.labels.size();
   json["input"] = options.mesh;
-  json["files"] = nlohmann::ordered_json::object();
-  std::string written;
-  for (const auto& [name, file] : {std::pair("labels", &options.labels), std::pair("glb", &options.glb)}) {
-    if (file->empty()) continue;
-    json["files"][name] = *file;
-    written += (written.empty() ? "\nwrote " : ", ") + *file;
-  }
+  const std::string written = run.report_files({{"labels", options.labels}, {"glb", options.glb}});
   run.summary = fmt::format("{}: {} part{} by {} ({} clusters, smoothness {:.4g}){}", options.mesh, result.parts,
                             result.parts == 1 ? "" : "s", name_of(features, options.settings.feature), result.clusters,
                             result.smoothness, written);

@@ -3,69 +3,38 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
-#include <set>
 
 #include "partwise/base/error.h"
 #include "partwise/geometry/mesh_formats.h"
 #include "partwise/geometry/mesh_io.h"
+#include "partwise/geometry/test_corpus.h"
 
 namespace partwise {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-using ::testing::StartsWith;
 
 const std::filesystem::path kCorpus = std::filesystem::path(PARTWISE_TEST_DATA) / "data" / "corpus";
 
-nlohmann::json expected() {
-  std::ifstream file(kCorpus / "expected.json");
-  return nlohmann::json::parse(file);
-}
-
 TEST(Corpus, GivesTheMeshOrTheMessageThatIsExpected) {
-  for (const auto& each : expected()) {
-    const std::string name = each.at("file");
-    SCOPED_TRACE(name);
-    const std::filesystem::path path = kCorpus / name;
-    try {
-      const Mesh mesh = read_mesh(path);
-      if (each.contains("error")) {
-        ADD_FAILURE() << "was read, but should say: " << each.at("error");
-        continue;
-      }
-      EXPECT_EQ(mesh.vertices.rows(), each.at("vertices").get<int>());
-      EXPECT_EQ(mesh.faces.rows(), each.at("faces").get<int>());
-      EXPECT_TRUE(mesh.vertices.allFinite());
-      ASSERT_GT(mesh.faces.size(), 0);
-      EXPECT_GE(mesh.faces.minCoeff(), 0);
-      EXPECT_LT(mesh.faces.maxCoeff(), mesh.vertices.rows());
-    } catch (const InputError& error) {
-      const std::string message = error.what();
-      if (!each.contains("error")) {
-        ADD_FAILURE() << message;
-        continue;
-      }
-      EXPECT_THAT(message, StartsWith(path.string()));
-      EXPECT_THAT(message, HasSubstr(each.at("error").get<std::string>()));
-      EXPECT_THAT(message, HasSubstr("; ")) << "no remedy";
-      EXPECT_THAT(message, Not(HasSubstr("\n")));
-      EXPECT_LT(message.size(), path.string().size() + 300);
-    }
-  }
+  test::replay_corpus(kCorpus, [](const std::filesystem::path& path, const nlohmann::json& expected) {
+    const Mesh mesh = read_mesh(path);
+    if (expected.contains("error")) return;
+    EXPECT_EQ(mesh.vertices.rows(), expected.at("vertices").get<int>());
+    EXPECT_EQ(mesh.faces.rows(), expected.at("faces").get<int>());
+    EXPECT_TRUE(mesh.vertices.allFinite());
+    ASSERT_GT(mesh.faces.size(), 0);
+    EXPECT_GE(mesh.faces.minCoeff(), 0);
+    EXPECT_LT(mesh.faces.maxCoeff(), mesh.vertices.rows());
+  });
 }
 
 TEST(Corpus, ListsEveryFile) {
-  std::set<std::string> listed{"expected.json", "README.md", ".gitattributes", "external_buffer.bin"};
-  for (const auto& each : expected()) {
-    EXPECT_TRUE(listed.insert(each.at("file").get<std::string>()).second) << each << " is listed twice";
-    EXPECT_TRUE(each.at("decompose").is_string());
-  }
-  for (const auto& entry : std::filesystem::directory_iterator(kCorpus)) {
-    EXPECT_TRUE(listed.contains(entry.path().filename().string())) << entry.path();
-  }
-  EXPECT_GE(listed.size(), 49u);
+  const nlohmann::json cases = test::corpus_cases(kCorpus);
+  EXPECT_GE(cases.size(), 45u);
+  for (const auto& each : cases) EXPECT_TRUE(each.at("decompose").is_string());
+  test::expect_all_listed(kCorpus, {"README.md", ".gitattributes", "external_buffer.bin"});
 }
 
 Mesh read_as(const std::string& name, std::string_view bytes) {

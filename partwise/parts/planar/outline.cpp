@@ -12,27 +12,6 @@
 namespace partwise {
 namespace {
 
-// Corners of one polygon by name; equal corners have one name.
-class Corners {
- public:
-  int name(const Eigen::RowVector2d& corner) {
-    // 0 and -0 are the same place.
-    const auto [found, fresh] =
-        names_.try_emplace({corner.x() + 0.0, corner.y() + 0.0}, static_cast<int>(points.size()));
-    if (fresh) points.emplace_back(corner.transpose());
-    return found->second;
-  }
-  IndexRing names(const Ring& ring) {
-    IndexRing result;
-    for (Eigen::Index i = 0; i < ring.rows(); ++i) result.push_back(name(ring.row(i)));
-    return result;
-  }
-  std::vector<Point2> points;
-
- private:
-  std::map<std::pair<double, double>, int> names_;
-};
-
 void append_cuts(std::span<const Point2> points, const std::vector<Region>& parts, int first,
                  std::vector<OutlineCut>& cuts) {
   std::map<IndexEdge, int> owners;
@@ -67,22 +46,17 @@ Outline decompose_outline(std::span<const Polygon> shape, const OutlineSettings&
   const auto start = std::chrono::steady_clock::now();
   for (std::size_t p = 0; p < shape.size(); ++p) {
     progress("cutting", static_cast<double>(p) / static_cast<double>(shape.size()));
-    Corners corners;
-    Region region;
-    region.outer = corners.names(shape[p].outer);
-    for (const Ring& hole : shape[p].holes) {
-      region.holes.push_back(corners.names(hole));
-      const double concavity = antipodal_pair(corners.points, region.holes.back()).depth / unit;
-      result.holes.push_back({static_cast<int>(p), static_cast<int>(&hole - shape[p].holes.data()), concavity,
-                              concavity <= settings.tolerance});
+    const auto [points, region] = to_region(shape[p]);
+    for (std::size_t h = 0; h < region.holes.size(); ++h) {
+      const double concavity = antipodal_pair(points, region.holes[h]).depth / unit;
+      result.holes.push_back({static_cast<int>(p), static_cast<int>(h), concavity, concavity <= settings.tolerance});
     }
-    const DualResult dual =
-        dual_decomposition(corners.points, region, {settings.tolerance * unit, result.radius}, progress);
-    append_cuts(corners.points, dual.parts, static_cast<int>(result.parts.size()), result.cuts);
+    const DualResult dual = dual_decomposition(points, region, {settings.tolerance * unit, result.radius}, progress);
+    append_cuts(points, dual.parts, static_cast<int>(result.parts.size()), result.cuts);
     result.unresolved += dual.unresolved;
     for (const Region& part : dual.parts) {
-      result.concavity = std::max(result.concavity, region_depth(corners.points, part) / unit);
-      result.parts.push_back(to_polygon(corners.points, part));
+      result.concavity = std::max(result.concavity, region_depth(points, part) / unit);
+      result.parts.push_back(to_polygon(points, part));
     }
   }
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;

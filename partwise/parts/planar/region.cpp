@@ -1,6 +1,7 @@
 #include "partwise/parts/planar/region.h"
 
 #include <algorithm>
+#include <map>
 
 #include "partwise/base/error.h"
 
@@ -140,6 +141,25 @@ std::vector<Region> RegionMesh::split(std::span<const Point2> points,
   std::vector<Region> result;
   result.reserve(bounds.size());
   for (auto& edges : bounds) result.push_back(trace_region(points, std::move(edges)));
+  return result;
+}
+
+IndexedPolygon to_region(const Polygon& polygon) {
+  IndexedPolygon result;
+  std::map<std::pair<double, double>, int> names;
+  const auto indices = [&](const Ring& ring) {
+    IndexRing named;
+    for (const auto& corner : ring.rowwise()) {
+      // 0 and -0 are the same place.
+      const auto [found, fresh] =
+          names.try_emplace({corner.x() + 0.0, corner.y() + 0.0}, static_cast<int>(result.points.size()));
+      if (fresh) result.points.emplace_back(corner.transpose());
+      named.push_back(found->second);
+    }
+    return named;
+  };
+  result.region.outer = indices(polygon.outer);
+  for (const Ring& hole : polygon.holes) result.region.holes.push_back(indices(hole));
   return result;
 }
 

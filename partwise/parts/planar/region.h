@@ -52,6 +52,12 @@ class RegionMesh {
   ConstrainedDelaunay mesh_;
 };
 
+// A polygon as a region of its own corners; equal corners are one point.
+struct IndexedPolygon {
+  std::vector<Point2> points;
+  Region region;
+};
+IndexedPolygon to_region(const Polygon& polygon);
 Polygon to_polygon(std::span<const Point2> points, const Region& region);
 
 }  // namespace partwise

@@ -16,10 +16,6 @@ constexpr int kMostHalvings = 5;
 
 }  // namespace
 
-int fitted_clusters(SurfaceFeature) { return 8; }
-
-double fitted_smoothness(SurfaceFeature) { return 24; }
-
 Eigen::MatrixXd feature_values(const Mesh& mesh, SurfaceFeature feature, const Progress& progress) {
   const auto visibility = [&](VisibilityKind kind) {
     const Eigen::VectorXd values = continuous_visibility(mesh, {.kind = kind}, progress).values;
@@ -42,8 +38,8 @@ Eigen::MatrixXd feature_values(const Mesh& mesh, SurfaceFeature feature, const P
 
 Segmentation segment_values(const Mesh& mesh, const Eigen::MatrixXd& values, const SegmentationSettings& settings) {
   ClusteringSettings clustering;
-  clustering.clusters = settings.clusters == 0 ? fitted_clusters(settings.feature) : settings.clusters;
-  clustering.smoothness = settings.smoothness < 0 ? fitted_smoothness(settings.feature) : settings.smoothness;
+  clustering.clusters = settings.clusters == 0 ? fitted_clusters : settings.clusters;
+  clustering.smoothness = settings.smoothness < 0 ? fitted_smoothness : settings.smoothness;
   clustering.by_length = clustering.by_area = true;
   clustering.seed = settings.seed;
   FaceClustering found = cluster_faces(mesh, values, clustering);

@@ -29,16 +29,16 @@ enum class SurfaceFeature {
   visibility_weak,
 };
 
+// What is taken for every feature and mesh unless told otherwise.
+inline constexpr int fitted_clusters = 8;
+inline constexpr double fitted_smoothness = 24;
+
 struct SegmentationSettings {
   SurfaceFeature feature = SurfaceFeature::visibility_average;
   int clusters = 0;        // 0: fitted_clusters
   double smoothness = -1;  // ClusteringSettings::smoothness; below 0: fitted_smoothness
   std::uint64_t seed = 0;
 };
-
-// What was fitted for a feature.
-int fitted_clusters(SurfaceFeature feature);
-double fitted_smoothness(SurfaceFeature feature);
 
 struct Segmentation {
   std::vector<int> labels;  // a face, 0 .. parts - 1; each part is connected, numbered by its first face

@@ -34,8 +34,8 @@ TEST(Segmentation, CutsADumbbellAsPeopleWould) {
 TEST(Segmentation, TakesTheFittedPairUnlessToldOtherwise) {
   const Mesh mesh = test::dumbbell(20, 12);
   const Segmentation fitted = segment(mesh);
-  EXPECT_EQ(fitted.clusters, fitted_clusters(SurfaceFeature::visibility_average));
-  EXPECT_EQ(fitted.smoothness, fitted_smoothness(SurfaceFeature::visibility_average));
+  EXPECT_EQ(fitted.clusters, fitted_clusters);
+  EXPECT_EQ(fitted.smoothness, fitted_smoothness);
   const Segmentation told = segment(mesh, {.clusters = fitted.clusters, .smoothness = fitted.smoothness});
   EXPECT_EQ(told.labels, fitted.labels);
   EXPECT_EQ(segment(mesh, {.clusters = 1}).parts, 1);
@@ -48,11 +48,10 @@ TEST(Segmentation, AFittedSmoothnessThatLeavesAMeshWholeIsHalved) {
   const Mesh mesh = test::sphere(1, 40);
   const Eigen::VectorXd heights = face_means(mesh, mesh.vertices.col(2));
   const Eigen::VectorXd values = (heights.array() > 0.985).cast<double>();
-  const double fitted = fitted_smoothness(SurfaceFeature::visibility_average);
-  EXPECT_EQ(segment_values(mesh, values, {.smoothness = fitted}).parts, 1);
+  EXPECT_EQ(segment_values(mesh, values, {.smoothness = fitted_smoothness}).parts, 1);
   const Segmentation halved = segment_values(mesh, values);
   EXPECT_EQ(halved.parts, 2);
-  EXPECT_LT(halved.smoothness, fitted);
+  EXPECT_LT(halved.smoothness, fitted_smoothness);
   EXPECT_EQ(segment_values(mesh, Eigen::VectorXd::Ones(mesh.faces.rows())).parts, 1);
 }
 
