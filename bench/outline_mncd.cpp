@@ -42,8 +42,6 @@ struct Totals {
   bool finished = true;
 };
 
-IndexEdge sorted(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
-
 class Decomposer {
  public:
   Decomposer(std::vector<Point2> points, Region region, double tolerance, double deadline)

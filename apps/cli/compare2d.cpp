@@ -34,11 +34,7 @@ void compare_files(const Options& options, Run& run) {
     for (const std::string& reference : options.references) parts.push_back(read_segmentation(reference));
   });
   Eigen::AlignedBox2d box;
-  for (const PlanarSegmentation& each : parts) {
-    for (const Polygon& polygon : each.polygons) {
-      for (Eigen::Index i = 0; i < polygon.outer.rows(); ++i) box.extend(Eigen::Vector2d(polygon.outer.row(i)));
-    }
-  }
+  for (const PlanarSegmentation& each : parts) box.extend(bounding_box(each.polygons));
   if (box.isEmpty() || !(box.sizes().minCoeff() > 0)) {
     throw InputError(options.judged, "encloses nothing", "give decompositions as polygons or label images");
   }

@@ -82,10 +82,7 @@ void tell_clean(OutlineStory& story) {
 
 // The mammoth as a scan of 640 pixels, ragged and speckled, back in its own coordinates.
 Polygons noisy_version(const Polygons& shape) {
-  Eigen::AlignedBox2d box;
-  for (const partwise::Polygon& polygon : shape) {
-    for (Eigen::Index i = 0; i < polygon.outer.rows(); ++i) box.extend(Eigen::Vector2d(polygon.outer.row(i)));
-  }
+  const Eigen::AlignedBox2d box = partwise::bounding_box(shape);
   constexpr double margin = 12;
   const double scale = 640 / box.sizes().x();
   Scan scan(static_cast<int>(640 + 2 * margin), static_cast<int>(scale * box.sizes().y() + 2 * margin));

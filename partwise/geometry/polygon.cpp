@@ -108,6 +108,13 @@ void normalise(Polygons& polygons) {
   std::erase_if(polygons, [](const Polygon& polygon) { return polygon.outer.rows() < 3; });
 }
 
+Eigen::AlignedBox2d bounding_box(std::span<const Polygon> polygons) {
+  Eigen::AlignedBox2d box;  // holes lie inside
+  for (const Polygon& polygon : polygons)
+    for (const auto& corner : polygon.outer.rowwise()) box.extend(Eigen::Vector2d(corner));
+  return box;
+}
+
 Circle enclosing_circle(std::span<const Polygon> polygons) {
   std::vector<Point2> points;
   for (const Polygon& polygon : polygons) {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <span>
 #include <string>
@@ -30,6 +31,9 @@ double area(std::span<const Polygon> polygons);
 
 // Turns rings to the directions above. Repeated successive corners and rings of fewer than three corners go.
 void normalise(Polygons& polygons);
+
+// Of all corners; empty for no polygons.
+Eigen::AlignedBox2d bounding_box(std::span<const Polygon> polygons);
 
 struct Circle {
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();

@@ -11,8 +11,6 @@ namespace {
 
 constexpr std::size_t most_resolvers = 12;  // of a feature: the best by score, singles and pairs each
 
-IndexEdge sorted(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
-
 class Chooser {
  public:
   Chooser(std::span<const Point2> points, const Region& region, const Complement& complement,

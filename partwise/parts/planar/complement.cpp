@@ -202,8 +202,7 @@ class Builder {
 
   void simplify() {
     std::unordered_set<int> inner;  // strictly inside pockets
-    for (const IndexRing& chain : hull_pockets(points_, region_.outer))
-      inner.insert(chain.begin() + 1, chain.end() - 1);
+    for (const IndexRing& chain : pockets_) inner.insert(chain.begin() + 1, chain.end() - 1);
     const auto keep = [&](const IndexRing& ring, bool hull_too) {
       IndexRing kept;
       for (int v : ring) {

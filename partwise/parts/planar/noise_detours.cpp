@@ -19,8 +19,6 @@ std::vector<const IndexRing*> rings_of(const Region& region) {
   return rings;
 }
 
-IndexEdge sorted(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
-
 class Detours {
  public:
   Detours(std::span<const Point2> points, const Region& region, const std::vector<bool>& noise)

@@ -18,6 +18,9 @@ namespace partwise {
 using IndexRing = std::vector<int>;
 using IndexEdge = std::pair<int, int>;
 
+// An edge that has no direction, by its smaller end first.
+inline IndexEdge sorted(int a, int b) { return a < b ? IndexEdge(a, b) : IndexEdge(b, a); }
+
 struct Region {
   IndexRing outer;
   std::vector<IndexRing> holes;
