@@ -91,7 +91,7 @@ struct Scene {
         mesh(orient_consistently({on_grid(placed(input.vertices)), input.faces})),
         closed(is_watertight(mesh)),
         surface(mesh),
-        space(sample_space(surface, closed, convex_hull(corners_of(mesh, all_faces()), thickness).mesh, kSamples)),
+        space(sample_space(surface, convex_hull(corners_of(mesh, all_faces()), thickness).mesh, kSamples)),
         outside(surface, closed, {Point::Zero(), 1.0}, kSmallestCube * tolerance) {}
 
   Vertices placed(const Vertices& vertices) const {

@@ -75,7 +75,7 @@ struct Measured {
   explicit Measured(const Mesh& shape)
       : mesh(test::normalised(shape)),
         surface(mesh),
-        space(sample_space(surface, is_watertight(mesh), convex_hull(mesh.vertices, 1e-6).mesh, 2000)),
+        space(sample_space(surface, convex_hull(mesh.vertices, 1e-6).mesh, 2000)),
         outside(surface, is_watertight(mesh), {Point::Zero(), 1}, 0.01) {}
   Mesh mesh;
   SurfaceQuery surface;

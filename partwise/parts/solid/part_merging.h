@@ -22,7 +22,7 @@ namespace partwise {
 using AcceptMerge = std::function<bool(const HullPart& merged)>;
 
 // The most air that a merge may take in: `factor` times the square of the tolerance (in R), as a share of the solid.
-// Where parts are long and thin a merge can keep its promise and yet be mostly air. Infinite for open surfaces.
+// Where parts are long and thin a merge can keep its promise and yet be mostly air. Infinite where there is no solid.
 double largest_air(const SpaceSamples& space, double tolerance, double factor);
 
 struct MergeSettings {

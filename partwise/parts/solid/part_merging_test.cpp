@@ -16,7 +16,7 @@ namespace {
 using test::block;
 
 SpaceSamples samples_of(const Mesh& mesh) {
-  return sample_space(SurfaceQuery(mesh), is_watertight(mesh), convex_hull(mesh.vertices, 1e-6).mesh, 2000);
+  return sample_space(SurfaceQuery(mesh), convex_hull(mesh.vertices, 1e-6).mesh, 2000);
 }
 
 // A piece a slab of cells along an axis.
@@ -190,14 +190,23 @@ TEST(SpaceSamples, CountsApproximateVolumes) {
   const Mesh mesh = test::l_shape(6, 2);  // 20 squares, 2 deep; its hull 28 squares
   const SurfaceQuery surface(mesh);
   const Mesh hull = convex_hull(mesh.vertices, 1e-6).mesh;
-  const SpaceSamples space = sample_space(surface, true, hull, 4000);
+  const SpaceSamples space = sample_space(surface, hull, 4000);
   EXPECT_NEAR(static_cast<double>(space.solid.size()) * space.volume, 40, 1);
   EXPECT_NEAR(static_cast<double>(space.air.size()) * space.volume, signed_volume(hull) - 40, 1);
   EXPECT_NEAR(static_cast<double>(space.air.size() + space.solid.size()), 4000, 100);
   for (const auto& p : space.solid.points().rowwise()) EXPECT_TRUE(p.x() <= 2 || p.y() <= 2);
   for (const auto& p : space.air.points().rowwise()) EXPECT_FALSE(p.x() < 2 || p.y() < 2);
   EXPECT_EQ(space.solid.inside(hull).size(), static_cast<std::size_t>(space.solid.size()));
-  EXPECT_EQ(sample_space(surface, false, hull, 100).solid.size(), 0);
+}
+
+TEST(SpaceSamples, AHoleBlursTheSolidAndASheetHasNone) {
+  Mesh mesh = test::l_shape(6, 2);
+  const Mesh hull = convex_hull(mesh.vertices, 1e-6).mesh;
+  const Mesh open{mesh.vertices, mesh.faces.topRows(mesh.faces.rows() - 1)};
+  const SpaceSamples space = sample_space(SurfaceQuery(open), hull, 4000);
+  EXPECT_NEAR(static_cast<double>(space.solid.size()) * space.volume, 40, 6);
+  const Mesh sheet{mesh.vertices, mesh.faces.topRows(1)};
+  EXPECT_EQ(sample_space(SurfaceQuery(sheet), hull, 100).solid.size(), 0);
 }
 
 }  // namespace

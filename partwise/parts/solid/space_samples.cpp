@@ -16,7 +16,7 @@ double radical_inverse(int base, int n) {
 
 }  // namespace
 
-SpaceSamples sample_space(const SurfaceQuery& surface, bool closed, const Mesh& hull, int count) {
+SpaceSamples sample_space(const SurfaceQuery& surface, const Mesh& hull, int count) {
   const Point low = hull.vertices.colwise().minCoeff(), size = hull.vertices.colwise().maxCoeff() - low;
   SpaceSamples samples;
   const double filled = signed_volume(hull) / std::max(size.prod(), 1e-300);
@@ -28,10 +28,8 @@ SpaceSamples sample_space(const SurfaceQuery& surface, bool closed, const Mesh& 
   std::vector<int> inside = PointTree(drawn).inside(hull);
   std::sort(inside.begin(), inside.end());
   std::vector<char> in_solid(inside.size(), 0);
-  if (closed) {
-    tbb::parallel_for(std::size_t{0}, inside.size(),
-                      [&](std::size_t i) { in_solid[i] = surface.contains(drawn.row(inside[i])); });
-  }
+  tbb::parallel_for(std::size_t{0}, inside.size(),
+                    [&](std::size_t i) { in_solid[i] = surface.contains(drawn.row(inside[i])); });
   std::vector<int> air, solid;
   for (std::size_t i = 0; i < inside.size(); ++i) (in_solid[i] ? solid : air).push_back(inside[i]);
   samples.air = PointTree(drawn(air, Eigen::all));
