@@ -120,7 +120,8 @@ void fill_interior(const Mesh& mesh, const SpaceSamples& space, std::vector<Hull
       set_hull(larger, corners, minimum_thickness);
       double taken = 1e-6 * distance;
       for (int a : space.air.inside(larger.hull)) taken += !air[a];
-      if (taken >= least || !promise.holds(larger.hull)) continue;
+      // What stays thin gains nothing, and thin hulls are made anew from the part's vertices alone when delivered.
+      if (larger.thickened || taken >= least || !promise.holds(larger.hull)) continue;
       least = taken;
       chosen = p;
       grown = std::move(larger);
