@@ -55,13 +55,8 @@ void Corners::append(const Vertices& more, const std::vector<int>& their_source)
 
 Corners exact_corners(const Mesh& mesh, const HullPart& part) {
   if (!part.thickened) return {part.hull.vertices, part.source};
-  Corners corners;
-  for (const int v : part.source)
-    if (v >= 0) corners.source.push_back(v);
-  std::sort(corners.source.begin(), corners.source.end());
-  corners.source.erase(std::unique(corners.source.begin(), corners.source.end()), corners.source.end());
-  corners.points = mesh.vertices(corners.source, Eigen::all);
-  return corners;
+  std::vector<int> used = vertices_of(mesh, part.faces);  // More than its source, when it took in faces that it held.
+  return {mesh.vertices(used, Eigen::all), std::move(used)};
 }
 
 void set_hull(HullPart& part, const Corners& corners, double minimum_thickness) {

@@ -186,6 +186,18 @@ TEST(HullPart, CornersOfFacesAndExtremePoints) {
   EXPECT_EQ(extreme_points(cloud.topRows(96)), cloud.topRows(96));
 }
 
+// A flat part holds the second face in its thickness; the face is the part's, and has to stay in when the part grows.
+TEST(HullPart, ExactCornersAreThoseOfAllFacesOfAFlatPart) {
+  Mesh mesh{Vertices(6, 3), Faces(2, 3)};
+  mesh.vertices << 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 0.5, -0.03, 0.5, 1, -0.03, 1, 1, -0.03;
+  mesh.faces << 0, 1, 2, 3, 4, 5;
+  HullPart part = hull_part(mesh, {0}, 0.1);
+  ASSERT_TRUE(part.thickened);
+  part.faces = {0, 1};
+  EXPECT_EQ(exact_corners(mesh, part).source, (std::vector<int>{0, 1, 2, 3, 4, 5}));
+  EXPECT_EQ(exact_corners(mesh, part).points, mesh.vertices);
+}
+
 TEST(SpaceSamples, CountsApproximateVolumes) {
   const Mesh mesh = test::l_shape(6, 2);  // 20 squares, 2 deep; its hull 28 squares
   const SurfaceQuery surface(mesh);
