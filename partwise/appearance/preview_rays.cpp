@@ -54,21 +54,16 @@ RTCRay make_ray(const Vector& origin, const Vector& direction) {
 
 PreviewRays::PreviewRays(const PreviewScene& scene)
     : device_(rtcNewDevice(nullptr)),
-      scene_(rtcNewScene(device_)),
+      scene_(rtcNewScene(device_.get())),
       low_(Vector::Constant(std::numeric_limits<float>::infinity())),
       high_(-low_) {
-  rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
   for (const PreviewMesh& mesh : scene.meshes) add(mesh);
   for (const PreviewCurve& curve : scene.curves) add_round(curve.points, curve.radius, curve.colour, true);
   for (const PreviewPoints& points : scene.points) add_round(points.points, points.radius, points.colour, false);
   PARTWISE_CHECK(size(), >=, 0);
   // One thread builds one tree: where surfaces coincide, which of them is hit depends on the tree.
-  tbb::task_arena(1).execute([&] { rtcCommitScene(scene_); });
-}
-
-PreviewRays::~PreviewRays() {
-  rtcReleaseScene(scene_);
-  rtcReleaseDevice(device_);
+  tbb::task_arena(1).execute([&] { rtcCommitScene(scene_.get()); });
 }
 
 void PreviewRays::add(const PreviewMesh& preview) {
@@ -85,7 +80,7 @@ void PreviewRays::add(const PreviewMesh& preview) {
   low_ = low_.cwiseMin(surface.vertices.colwise().minCoeff().transpose());
   high_ = high_.cwiseMax(surface.vertices.colwise().maxCoeff().transpose());
 
-  RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+  RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
   void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float),
                                            static_cast<std::size_t>(mesh.vertices.rows()));
   void* faces = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned),
@@ -99,7 +94,7 @@ void PreviewRays::add_round(const Vertices& points, double radius, const Vector&
   PARTWISE_CHECK(radius, >, 0);
   PARTWISE_CHECK(points.rows(), >=, joined ? 2 : 1);
   RTCGeometry geometry =
-      rtcNewGeometry(device_, joined ? RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE : RTC_GEOMETRY_TYPE_SPHERE_POINT);
+      rtcNewGeometry(device_.get(), joined ? RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE : RTC_GEOMETRY_TYPE_SPHERE_POINT);
   auto* spheres =
       static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
                                                   4 * sizeof(float), static_cast<std::size_t>(points.rows())));
@@ -122,7 +117,7 @@ void PreviewRays::add_round(const Vertices& points, double radius, const Vector&
 
 void PreviewRays::add_body(RTCGeometry geometry, Body body) {
   rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(scene_, geometry, static_cast<unsigned>(bodies_.size()));
+  rtcAttachGeometryByID(scene_.get(), geometry, static_cast<unsigned>(bodies_.size()));
   rtcReleaseGeometry(geometry);
   bodies_.push_back(std::move(body));
 }
@@ -132,7 +127,7 @@ bool PreviewRays::first_hit(const Vector& origin, const Vector& direction, Previ
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  rtcIntersect1(scene_, &context, &ray);
+  rtcIntersect1(scene_.get(), &context, &ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
   const Body& body = bodies_[ray.hit.geomID];
   hit.colour = body.colours[body.colours.size() == 1 ? 0 : ray.hit.primID];
@@ -168,7 +163,7 @@ bool PreviewRays::blocked(const Vector& origin, const Vector& direction) const {
   RTCRay ray = make_ray(origin, direction);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  rtcOccluded1(scene_, &context, &ray);
+  rtcOccluded1(scene_.get(), &context, &ray);
   return ray.tfar < 0;
 }
 
@@ -183,7 +178,7 @@ std::array<bool, 4> PreviewRays::blocked(const Vector& origin, const Eigen::Matr
   }
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  rtcOccluded4(valid, scene_, &context, &rays);
+  rtcOccluded4(valid, scene_.get(), &context, &rays);
   return {rays.tfar[0] < 0, rays.tfar[1] < 0, rays.tfar[2] < 0, rays.tfar[3] < 0};
 }
 

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "partwise/appearance/preview.h"
@@ -21,7 +22,6 @@ struct PreviewHit {
 class PreviewRays {
  public:
   explicit PreviewRays(const PreviewScene& scene);
-  ~PreviewRays();
   PreviewRays(const PreviewRays&) = delete;
   PreviewRays& operator=(const PreviewRays&) = delete;
 
@@ -51,8 +51,12 @@ class PreviewRays {
   void smooth_hit(const Surface& surface, const RTCRayHit& ray, const Eigen::Vector3f& flat_normal,
                   PreviewHit& hit) const;
 
-  RTCDevice device_;
-  RTCScene scene_;
+  struct Release {
+    void operator()(RTCDeviceTy* device) const { rtcReleaseDevice(device); }
+    void operator()(RTCSceneTy* scene) const { rtcReleaseScene(scene); }
+  };
+  std::unique_ptr<RTCDeviceTy, Release> device_;  // Freed also where the constructor throws.
+  std::unique_ptr<RTCSceneTy, Release> scene_;
   std::vector<Body> bodies_;
   std::vector<Surface> surfaces_;
   std::vector<Faces> faces_;
