@@ -54,10 +54,10 @@ class PartMerging {
   struct Part {
     HullPart body;
     std::vector<int> pieces;
-    std::vector<int> air;          // the sample points in the hull
-    int version = 0;               // counts its changes
-    std::set<int> refused;         // parts that it may not be merged with; what grows stays refused
-    std::set<int> refused_pieces;  // pieces of others that it may not take
+    std::vector<int> air;                          // the sample points in the hull
+    int version = 0;                               // counts its changes
+    std::set<int> refused;                         // parts that it may not be merged with; what grows stays refused
+    std::set<int> refused_pieces;                  // pieces of others that it may not take
     std::vector<std::pair<int, int>> stuck_among;  // surroundings in which it could not be dissolved
   };
   struct Growth {

@@ -15,8 +15,8 @@ struct SpaceSamples {
   double volume = 0;  // that a point stands for
 };
 
-// Draws until there are `count` points in the hull, in either set. Of an open surface, the solid is what most directions
-// leave through a face, a guess that holes blur; a sheet has none.
+// Draws until there are `count` points in the hull, in either set. Of an open surface, the solid is what most
+// directions leave through a face, a guess that holes blur; a sheet has none.
 SpaceSamples sample_space(const SurfaceQuery& surface, const Mesh& hull, int count);
 
 }  // namespace partwise

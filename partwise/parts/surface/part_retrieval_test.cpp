@@ -5,7 +5,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <numbers>
 
 #include "partwise/base/error.h"
 #include "partwise/base/test_folder.h"
