@@ -36,7 +36,7 @@ def parse(words):
     add("--medial", action="store_true", help="points of the medial axis against the judge's")
     add = parser.add_argument
     add("--amplitudes", type=float, nargs="*", default=histograms.AMPLITUDES, help="of --histograms, shares of R")
-    add("--samples", type=int, default=40000, help="of --medial, that the judge draws")
+    add("--samples", type=int, default=200000, help="of --medial, that the judge draws")
     options = parser.parse_args(words)
     for program in (options.program, *(options.tools / name for name in ("visibility_compare", "mesh_variant", "medial_check"))):
         if not os.access(program, os.X_OK):

@@ -16,7 +16,7 @@
 namespace partwise::bench {
 
 struct MedialAxisSettings {
-  int samples = 40000;
+  int samples = 200000;
   double least_angle = 60;  // degrees
   std::uint64_t seed = 1;
 };
