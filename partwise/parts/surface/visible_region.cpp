@@ -284,13 +284,14 @@ void VisibleRegion::filter_printed() {
     forget_traces();
     std::vector<int> path;
     for (int v = inner; v != viewpoint_; v = parent_[v]) path.push_back(v);
+    std::reverse(path.begin(), path.end());
     int last = viewpoint_, first = outer;
-    for (auto v = path.rbegin(); v != path.rend(); ++v) {
-      if (!visible(*v)) {
-        first = *v;
+    for (const int v : path) {
+      if (!visible(v)) {
+        first = v;
         break;
       }
-      last = *v;
+      last = v;
     }
     visible(inner);
     const Contour contour = trace(last, first);
