@@ -21,14 +21,13 @@
 #include <tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <numeric>
-#include <random>
 
 #include "bench/ridges/ridge_match.h"
+#include "bench/variants/variants.h"
 #include "partwise/geometry/mesh_io.h"
 #include "partwise/geometry/topology.h"
 #include "partwise/parts/solid/convex_ridges.h"
@@ -38,39 +37,10 @@ namespace {
 
 using nlohmann::ordered_json;
 using partwise::Mesh;
-using partwise::Point;
+using partwise::bench::noisy;
 using partwise::bench::Ridge;
 
 constexpr double kCompact = 0.5;  // diameter, R
-
-// Even in [-1, 1), the same for every standard library.
-double even(std::mt19937_64& random) { return static_cast<double>(random() >> 11U) * 0x1p-52 - 1; }
-
-partwise::Vertices normals(const Mesh& mesh) {
-  partwise::Vertices sums = partwise::Vertices::Zero(mesh.vertices.rows(), 3);
-  for (const auto& f : mesh.faces.rowwise()) {
-    const Point a = mesh.vertices.row(f[0]), b = mesh.vertices.row(f[1]), c = mesh.vertices.row(f[2]);
-    for (const int v : f) sums.row(v) += (b - a).cross(c - a);
-  }
-  return sums.rowwise().normalized();
-}
-
-Mesh noisy(Mesh mesh, double amplitude, int seed, bool along_normals) {
-  std::mt19937_64 random(static_cast<std::uint64_t>(seed));
-  const partwise::Vertices normal = along_normals ? normals(mesh) : partwise::Vertices();
-  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
-    Point step;
-    if (along_normals) {
-      step = even(random) * normal.row(v);
-    } else {
-      do {
-        for (int k = 0; k < 3; ++k) step[k] = even(random);
-      } while (step.squaredNorm() > 1);
-    }
-    mesh.vertices.row(v) += amplitude * step;
-  }
-  return mesh;
-}
 
 struct Ridges {
   std::vector<Ridge> ridges;

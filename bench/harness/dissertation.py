@@ -43,3 +43,9 @@ TABLE_2_1 = {
 }
 
 TABLE_2_1_AVERAGE = (0.18, 0.17, 0.15)
+
+# Section 2.2.3.3: the shares of the intersection tests and of the running time that the filter saves on the search in breadth, by
+# vertices. The search takes about 900 s for 10k vertices, the filter 49 % less.
+SIZE_CLASSES = ("under 5k", "5k to 10k", "over 10k")
+FILTER_SAVES = {"under 5k": (0.72, 0.30), "5k to 10k": (0.82, 0.37), "over 10k": (0.89, 0.49)}
+FILTER_SECONDS_AT_10K = 460

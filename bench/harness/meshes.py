@@ -33,6 +33,20 @@ def first_of_each(paths, category):
     return list(first.values())
 
 
+def spread(paths, count, category):
+    """At least `count` of them if there are so many: equally many of each category, evenly by size of file, in their order."""
+    groups = {}
+    for path in paths:
+        groups.setdefault(category(path), []).append(path)
+    each = -(-count // max(len(groups), 1))
+    kept = set()
+    for group in groups.values():
+        group.sort(key=lambda path: path.stat().st_size)
+        some = min(each, len(group))
+        kept.update(group[(2 * k + 1) * len(group) // (2 * some)] for k in range(some))
+    return [path for path in paths if path in kept]
+
+
 def chosen(folder, only, category):
     """Those of the folder that `only` names: "first-of-category", or names without ending, separated by commas; all for
     None."""

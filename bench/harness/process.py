@@ -5,6 +5,7 @@ import os
 import subprocess
 import tempfile
 import threading
+import time
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,6 +20,7 @@ class Run:
     cpu_seconds: float
     memory_mb: float  # largest resident set
     timed_out: bool
+    wall_seconds: float
 
     @property
     def trouble(self):
@@ -42,7 +44,9 @@ def run(command, time_limit):
 
         timer = threading.Timer(time_limit, kill)
         timer.start()
+        started = time.monotonic()
         _, status, usage = os.wait4(process.pid, 0)
+        wall_seconds = time.monotonic() - started
         timer.cancel()
         process.returncode = os.waitstatus_to_exitcode(status)
         texts = []
@@ -50,4 +54,4 @@ def run(command, time_limit):
             stream.seek(0)
             texts.append(stream.read().decode(errors="replace"))
         return Run(process.returncode, *texts, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024,
-                   expired.is_set() and process.returncode < 0)
+                   expired.is_set() and process.returncode < 0, wall_seconds)

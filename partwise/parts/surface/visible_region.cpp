@@ -35,8 +35,7 @@ void VisibleRegion::find(int viewpoint, VisibilityMethod method, const std::vect
   viewpoint_ = viewpoint;
   eye_ = graph_.mesh.vertices.row(viewpoint).cast<float>();
   std::fill(state_.begin(), state_.end(), std::uint16_t{0});
-  for (const int face : traced_faces_) traced_[face] = 0;
-  traced_faces_.clear();
+  forget_traces();
   edge_pairs_.clear();
   region_.clear();
   state_[viewpoint] = kPositive | kVisible | kCertain;
@@ -55,6 +54,11 @@ void VisibleRegion::find(int viewpoint, VisibilityMethod method, const std::vect
       filter(hints);
       break;
   }
+}
+
+void VisibleRegion::forget_traces() {
+  for (const int face : traced_faces_) traced_[face] = 0;
+  traced_faces_.clear();
 }
 
 bool VisibleRegion::positive(int v) {
@@ -276,16 +280,18 @@ void VisibleRegion::filter_printed() {
   flood();
   const auto boundary = boundary_;
   for (const auto& [inner, outer] : boundary) {
-    if (is(inner, kVisible | kHidden)) continue;
+    if (!is(inner, kInRegion) || is(inner, kVisible | kHidden)) continue;
+    forget_traces();
     std::vector<int> path;
     for (int v = inner; v != viewpoint_; v = parent_[v]) path.push_back(v);
+    std::reverse(path.begin(), path.end());
     int last = viewpoint_, first = outer;
-    for (auto v = path.rbegin(); v != path.rend(); ++v) {
-      if (!visible(*v)) {
-        first = *v;
+    for (const int v : path) {
+      if (!visible(v)) {
+        first = v;
         break;
       }
-      last = *v;
+      last = v;
     }
     visible(inner);
     const Contour contour = trace(last, first);

@@ -68,6 +68,7 @@ class VisibleRegion {
 
   void flood();
   Contour trace(int visible, int hidden);
+  void forget_traces();
   void block(const Contour& contour);
   void start_from(const std::vector<std::pair<int, int>>& hints);
   bool cut_leak();
