@@ -3,6 +3,7 @@
     cli_test.py PROGRAM [GROUP]
 """
 
+import colorsys
 import json
 import os
 import pty
@@ -25,6 +26,65 @@ def glb_json(file):
     """The JSON of a binary glTF file."""
     data = file.read_bytes()
     return json.loads(data[20:20 + int.from_bytes(data[12:16], "little")])
+
+
+class Picture:
+    """A PNG of 8 bits a channel with alpha, decoded."""
+
+    def __init__(self, file):
+        data, at, packed = file.read_bytes(), 8, b""
+        while at < len(data):
+            length, kind = struct.unpack(">I4s", data[at:at + 8])
+            body = data[at + 8:at + 8 + length]
+            if kind == b"IHDR":
+                self.width, self.height, depth, colours = struct.unpack(">IIBB", body[:10])
+                assert (depth, colours) == (8, 6), (depth, colours)
+            elif kind == b"IDAT":
+                packed += body
+            at += 12 + length
+        raw, stride, above = zlib.decompress(packed), 4 * self.width, bytes(4 * self.width)
+        self.rows = []
+        for y in range(self.height):
+            start = y * (stride + 1)
+            above = self.unfilter(raw[start], bytearray(raw[start + 1:start + 1 + stride]), above)
+            self.rows.append(above)
+
+    @staticmethod
+    def unfilter(kind, row, above):
+        def paeth(a, b, c):
+            da, db, dc = abs(b - c), abs(a - c), abs(a + b - 2 * c)
+            return a if da <= db and da <= dc else b if db <= dc else c
+
+        for i in range(len(row)) if kind else ():
+            left, corner = (row[i - 4], above[i - 4]) if i >= 4 else (0, 0)
+            row[i] = row[i] + (0, left, above[i], (left + above[i]) // 2, paeth(left, above[i], corner))[kind] & 255
+        return row
+
+    def hues(self, rows=slice(None)):
+        """How many opaque pixels of each hue in degrees; greys have none."""
+        counts = [0] * 360
+        for row in self.rows[rows]:
+            for i in range(0, len(row), 4):
+                if row[i + 3] == 255:
+                    hue, saturation, _ = colorsys.rgb_to_hsv(row[i] / 255, row[i + 1] / 255, row[i + 2] / 255)
+                    if saturation > 0.1:
+                        counts[int(360 * hue) % 360] += 1
+        return counts
+
+    def box(self):
+        """First and last column and row with an opaque pixel."""
+        alpha = [row[3::4] for row in self.rows]
+        rows = [y for y, row in enumerate(alpha) if 255 in row]
+        columns = [x for x in range(self.width) if any(alpha[y][x] == 255 for y in rows)]
+        return columns[0], columns[-1], rows[0], rows[-1]
+
+
+def share_near(counts, hue, reach=12):
+    """The share of the pixels whose hue is within `reach` degrees of `hue`."""
+    return sum(counts[(hue + d) % 360] for d in range(-reach, reach + 1)) / sum(counts)
+
+
+DARK_BLUE, YELLOW = 244, 62  # hues of the two ends of the scale of values
 
 
 class CommandLine(unittest.TestCase):
@@ -52,6 +112,18 @@ class CommandLine(unittest.TestCase):
         self.assertTrue(result.stderr.endswith("\n"))
         for word in words:
             self.assertIn(word, result.stderr)
+
+    def assert_framed(self, picture):
+        """Clear at the corners, and what is drawn takes 0.86 of the width or of the height, in the middle."""
+        self.assertEqual((picture.width, picture.height), (960, 800))
+        for y in (0, -1):
+            self.assertEqual((picture.rows[y][3], picture.rows[y][-1]), (0, 0))
+        left, right, top, bottom = picture.box()
+        margins = (left / 960, 1 - right / 960), (top / 800, 1 - bottom / 800)
+        tight = min(margins)
+        self.assertAlmostEqual(tight[0], 0.07, delta=0.01)
+        self.assertAlmostEqual(tight[1], 0.07, delta=0.01)
+        self.assertGreater(min(map(min, margins)), 0.06)
 
     def assert_files(self, *names):
         self.assertEqual(sorted(p.name for p in self.folder.iterdir()), sorted(names))
@@ -334,6 +406,26 @@ class Feature(CommandLine):
             self.assertEqual(report["files"], {"values": "v.txt", "glb": "v.glb"})
             self.assertEqual(len(glb_json(self.folder / "v.glb")["meshes"]), 2)
 
+    def test_a_picture_reaches_from_dark_blue_to_yellow(self):
+        result = self.feature("--kind", "cvf", "--png", "v.png", "--json", "-")
+        self.assert_done(result)
+        self.assertEqual(json.loads(result.stdout)["files"], {"png": "v.png"})
+        picture = Picture(self.folder / "v.png")
+        self.assert_framed(picture)
+        # The small cube sees least and is above the large one; nothing lies between their values.
+        _, _, top, bottom = picture.box()
+        for rows, colour in ((slice(top, top + 200), DARK_BLUE), (slice(bottom - 200, bottom), YELLOW)):
+            self.assertGreater(share_near(picture.hues(rows), colour), 0.98)
+
+    def test_a_picture_does_not_depend_on_the_place(self):
+        """Nor on threads, nor on vertices without a face."""
+        self.assert_done(self.feature("--kind", "cvf", "--png", "near.png", "--threads", "1"))
+        lines = (self.folder / "cubes.off").read_text().splitlines()
+        far = [" ".join(str(int(c) + 2**40) for c in line.split()) for line in lines[2:18]]
+        (self.folder / "far.off").write_text("\n".join(["OFF", "17 24 0", *far, "0 0 0", *lines[18:]]) + "\n")
+        self.assert_done(self.run_program("feature", "far.off", "--kind", "cvf", "--png", "far.png", "--threads", "2"))
+        self.assertEqual((self.folder / "near.png").read_bytes(), (self.folder / "far.png").read_bytes())
+
     def test_shape_diameter(self):
         self.assert_done(self.feature("--kind", "sdf", "--values", "v.txt"))
         values = [float(line) for line in (self.folder / "v.txt").read_text().splitlines()]
@@ -351,6 +443,7 @@ class Feature(CommandLine):
                                 (["--kind", "cvf-weak", "--method", "bfs"], "--method"), (["--kind", "sdf", "--method", "bfs"], "--method"),
                                 (["--kind", "cvf", "--weak-threshold", "0.2"], "--weak-threshold"),
                                 (["--kind", "cvf-weak", "--weak-threshold", "0"], "--weak-threshold"),
+                                (["--kind", "cvf", "--png", "v.jpg"], ".png"),
                                 (["--kind", "cvf", "--values", "cubes.off"], "same file")):
             self.assert_refused(self.feature(*arguments), 2, word, "--help")
         self.assert_files("cubes.off")
@@ -374,8 +467,28 @@ class Medial(CommandLine):
         self.assertGreater(len(rows), 100)
         self.assertTrue(all(row[3] > 0 for row in rows))
 
+    def test_a_picture_of_the_points(self):
+        for threads in (1, 2):
+            self.assert_done(self.run_program("medial", NOTCH, "--png", f"{threads}.png", "--threads", threads))
+        self.assertEqual((self.folder / "1.png").read_bytes(), (self.folder / "2.png").read_bytes())
+        picture = Picture(self.folder / "1.png")
+        self.assert_framed(picture)
+        hues = picture.hues()
+        for end in (DARK_BLUE, YELLOW):
+            self.assertGreater(share_near(hues, end), 0.003)
+        beads = sum(row[3::4].count(255) for row in picture.rows) / (960 * 800)
+        self.assertTrue(0.005 < beads < 0.5, beads)  # beads, not a surface
+
+    def test_a_picture_of_no_points(self):
+        (self.folder / "flat.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+        self.assert_done(self.run_program("medial", "flat.off", "--png", "a.png"))
+        picture = Picture(self.folder / "a.png")
+        self.assertEqual((picture.width, picture.height), (960, 800))
+        self.assertFalse(any(any(row) for row in picture.rows))
+
     def test_wrong_usage(self):
         self.assert_refused(self.run_program("medial", NOTCH, "--points", "axis.txt"), 2, ".ply")
+        self.assert_refused(self.run_program("medial", NOTCH, "--png", "axis.ply"), 2, ".png")
         self.assert_refused(self.run_program("medial", NOTCH, "--spacing", "0"), 2, "--spacing")
         self.assert_refused(self.run_program("medial", NOTCH, "--spacing", "0.001"), 1, "spacing", "0.005")
         self.assert_refused(self.run_program("medial", NOTCH, "--least-angle", "200"), 1, "least_angle")
@@ -516,6 +629,19 @@ class Segment(CommandLine):
         wrong = sum(int(label) != part for label, part in zip(labels, self.parts))
         self.assertLess(wrong, 0.05 * len(labels))
 
+    def test_a_picture_has_a_hue_a_part(self):
+        for threads in (1, 2):
+            self.assert_done(self.segment("--clusters", "2", "--png", f"{threads}.png", "--threads", threads))
+        self.assertEqual((self.folder / "1.png").read_bytes(), (self.folder / "2.png").read_bytes())
+        picture = Picture(self.folder / "1.png")
+        self.assert_framed(picture)
+        peaks, hues = [], picture.hues()
+        while max(hues) > 300:  # a hue and its shades, then the next
+            peaks.append(hues.index(max(hues)))
+            for near in range(peaks[-1] - 12, peaks[-1] + 13):
+                hues[near % 360] = 0
+        self.assertEqual(len(peaks), 3, peaks)
+
     def test_every_feature(self):
         for kind in ("cvf", "cvf-avg", "cvf-strong", "cvf-weak", "sdf"):
             report = json.loads(self.run_program("segment", "bar.off", "--feature", kind, "--json", "-").stdout)
@@ -543,6 +669,7 @@ class Segment(CommandLine):
             (("--feature", "sdf", "--clusters", "0"), "--clusters"),
             (("--feature", "sdf", "--smoothness", "-1"), "--smoothness"),
             (("--feature", "sdf", "--glb", "a.off"), ".glb"),
+            (("--feature", "sdf", "--png", "a.svg"), ".png"),
         ]
         for arguments, word in cases:
             self.assert_refused(self.run_program("segment", "bar.off", *arguments), 2, word, "--help")
@@ -551,7 +678,7 @@ class Segment(CommandLine):
     def test_help_teaches_with_an_example(self):
         result = self.run_program("segment", "--help")
         self.assert_done(result)
-        for word in ("Example:\n", "--feature", "--clusters", "--smoothness", "--labels", "--glb"):
+        for word in ("Example:\n", "--feature", "--clusters", "--smoothness", "--labels", "--glb", "--png"):
             self.assertIn(word, result.stdout)
 
 

@@ -10,17 +10,19 @@
 #include "mesh_errors.h"
 #include "options.h"
 #include "part_meshes.h"
+#include "partwise/appearance/colouring.h"
 #include "partwise/base/atomic_file.h"
 #include "partwise/geometry/mesh_io.h"
 #include "partwise/parts/surface/continuous_visibility.h"
 #include "partwise/parts/surface/shape_diameter.h"
+#include "picture.h"
 #include "verbs.h"
 
 namespace partwise::cli {
 namespace {
 
 struct Options {
-  std::string mesh, values, glb;
+  std::string mesh, values, glb, png;
   std::optional<VisibilityKind> kind;  // none: the shape diameter
   VisibilitySettings settings;
 };
@@ -54,7 +56,8 @@ void report(const Options& options, const VisibilityFeature& feature, Run& run) 
   if (options.kind && options.kind != VisibilityKind::weak) json["method"] = name_of(methods, options.settings.method);
   json["vertices"] = feature.values.size();
   json["input"] = options.mesh;
-  const std::string written = run.report_files({{"values", options.values}, {"glb", options.glb}});
+  const std::string written =
+      run.report_files({{"values", options.values}, {"glb", options.glb}, {"png", options.png}});
   const std::string effort = options.kind ? fmt::format(", by {} visibility tests", feature.tests) : "";
   run.summary = fmt::format("{}: {} of {} vertices, {:.6g} to {:.6g}{}{}", options.mesh, kind, feature.values.size(),
                             feature.values.minCoeff(), feature.values.maxCoeff(), effort, written);
@@ -64,12 +67,14 @@ void feature_of_file(const Options& options, Run& run) {
   run.outputs.add_input("MESH", options.mesh);
   if (!options.values.empty()) run.outputs.add("--values", options.values);
   if (!options.glb.empty()) run.outputs.add("--glb", options.glb, {".glb"});
+  if (!options.png.empty()) run.outputs.add("--png", options.png, {".png"});
   const Mesh mesh = run.stage("read", [&] { return read_mesh(options.mesh); });
   const VisibilityFeature feature = run.stage(
       "feature", [&] { return naming_mesh(options.mesh, [&] { return values_of(mesh, options, run.progress); }); });
   run.stage("write", [&] {
-    if (!options.glb.empty())
-      write_meshes(run.outputs.staged("--glb"), value_meshes(mesh, face_means(mesh, feature.values)));
+    const Eigen::VectorXd of_faces = face_means(mesh, feature.values);
+    if (!options.glb.empty()) write_meshes(run.outputs.staged("--glb"), value_meshes(mesh, of_faces));
+    if (!options.png.empty()) write_picture(run.outputs.staged("--png"), coloured_by_value(mesh, of_faces));
     if (options.values.empty()) return;
     std::string lines;
     for (const double value : feature.values) lines += fmt::format("{}\n", value);
@@ -96,6 +101,7 @@ Action add(CLI::App& command) {
                    "Of cvf-weak: the longest hidden part of a path, as a share of the bounding-sphere radius [0.1]");
   add_file(command, "--values", options->values, "Write the value of each vertex, one a line");
   add_file(command, "--glb", options->glb, "Write the mesh, coloured from dark blue, least, to yellow, most (.glb)");
+  add_file(command, "--png", options->png, "Draw the mesh in the same colours (.png)");
   return [options, method, threshold](Run& run) {
     const bool searched = options->kind && options->kind != VisibilityKind::weak;
     if (!searched && method->count() > 0)
@@ -115,7 +121,7 @@ const Verb feature_verb = {
     .details =
         "How much of the surface each vertex sees through the solid, along paths that it sees all of: large in large\n"
         "convex parts, small in small ones and in hollows. Model units squared; sdf in model units.",
-    .example = "  partwise feature hand.off --kind cvf-avg --values hand.txt --glb hand.glb",
+    .example = "  partwise feature hand.off --kind cvf-avg --values hand.txt --png hand.png",
     .add = add,
 };
 

@@ -9,15 +9,17 @@
 #include "mesh_errors.h"
 #include "options.h"
 #include "part_meshes.h"
+#include "partwise/appearance/colouring.h"
 #include "partwise/geometry/mesh_io.h"
 #include "partwise/parts/surface/segmentation.h"
+#include "picture.h"
 #include "verbs.h"
 
 namespace partwise::cli {
 namespace {
 
 struct Options {
-  std::string mesh, labels, glb;
+  std::string mesh, labels, glb, png;
   SegmentationSettings settings;
 };
 
@@ -35,7 +37,8 @@ void report(const Options& options, const Segmentation& result, Run& run) {
   json["feature"] = name_of(features, options.settings.feature);
   json["faces"] = result.labels.size();
   json["input"] = options.mesh;
-  const std::string written = run.report_files({{"labels", options.labels}, {"glb", options.glb}});
+  const std::string written =
+      run.report_files({{"labels", options.labels}, {"glb", options.glb}, {"png", options.png}});
   run.summary = fmt::format("{}: {} part{} by {} ({} clusters, smoothness {:.4g}){}", options.mesh, result.parts,
                             result.parts == 1 ? "" : "s", name_of(features, options.settings.feature), result.clusters,
                             result.smoothness, written);
@@ -45,6 +48,7 @@ void segment_files(const Options& options, Run& run) {
   run.outputs.add_input("MESH", options.mesh);
   if (!options.labels.empty()) run.outputs.add("--labels", options.labels);
   if (!options.glb.empty()) run.outputs.add("--glb", options.glb, {".glb"});
+  if (!options.png.empty()) run.outputs.add("--png", options.png, {".png"});
   const Mesh mesh = run.stage("read", [&] { return read_mesh(options.mesh); });
   SegmentationSettings settings = options.settings;
   settings.seed = run.seed;
@@ -53,6 +57,9 @@ void segment_files(const Options& options, Run& run) {
   run.stage("write", [&] {
     if (!options.labels.empty()) write_labels(run.outputs.staged("--labels"), result.labels);
     if (!options.glb.empty()) write_meshes(run.outputs.staged("--glb"), part_meshes(mesh, result.labels, result.parts));
+    if (!options.png.empty()) {
+      write_picture(run.outputs.staged("--png"), coloured_by_part(mesh, result.labels));
+    }
   });
   report(options, result, run);
 }
@@ -73,6 +80,7 @@ Action add(CLI::App& command) {
                "How dear borders between parts are; more gives fewer parts; left out: what was fitted");
   add_file(command, "--labels", options->labels, "Write the part of each face, one a line (.seg)");
   add_file(command, "--glb", options->glb, "Write the parts, coloured, one node each (.glb)");
+  add_file(command, "--png", options->png, "Draw the mesh in the colours of its parts (.png)");
   return [options](Run& run) { segment_files(*options, run); };
 }
 
@@ -86,7 +94,7 @@ const Verb segment_verb = {
         "bends.\n"
         "Every part is connected; one cluster may give many parts (the legs of a chair).",
     .example =
-        "  partwise segment chair.off --feature cvf-avg --labels chair.seg --glb chair_parts.glb\n"
+        "  partwise segment chair.off --feature cvf-avg --labels chair.seg --png chair_parts.png\n"
         "  partwise segment chair.off --feature cvf-avg --clusters 3 --smoothness 20 --json -",
     .add = add,
 };

@@ -18,6 +18,7 @@
 #include "partwise/geometry/mesh_io.h"
 #include "partwise/imaging/png.h"
 #include "pictures.h"
+#include "surfaces.h"
 
 namespace {
 
@@ -128,6 +129,10 @@ void run(const std::filesystem::path& folder) {
     if (models[i].in_herd) herd.push_back(&decomposed[i].mesh);
   }
   story.outlines = demo::tell_outlines(herd);
+  show("looking at surfaces");
+  std::vector<demo::ShownModel> shown;
+  for (std::size_t i = 0; i < models.size(); ++i) shown.push_back({&models[i], &decomposed[i].mesh});
+  story.surfaces = demo::tell_surfaces(shown);
   show("simulating and drawing the heap");
   story.pile = tell_pile(settings, pile.get());
   story.seconds = seconds_since(start);

@@ -4,54 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <string_view>
 
+#include "html.h"
 #include "page_style.h"
-#include "partwise/imaging/png.h"
+#include "page_surfaces.h"
 
 namespace demo {
 namespace {
-
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    unsigned group = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      group = group << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    }
-    for (std::size_t k = 0; k < 4; ++k) text += k <= count ? digits[group >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
-
-std::string figure(const Picture& picture, std::string_view loading) {
-  return fmt::format(
-      "<figure><img src=\"{}\" alt=\"{}\" width=\"{}\" height=\"{}\" "
-      "loading=\"{}\"><figcaption>{}</figcaption></figure>\n",
-      picture.data, picture.description, picture.width, picture.height, loading, picture.caption);
-}
-
-std::string figures(const std::vector<Picture>& pictures, std::string_view css_class) {
-  std::string html = fmt::format("<div class=\"{}\">\n", css_class);
-  for (const Picture& picture : pictures) html += figure(picture, "eager");
-  return html + "</div>\n";
-}
-
-std::string fact(std::string_view name, std::string_view value, std::string_view unit = "") {
-  return fmt::format("<div><dt>{}</dt><dd>{}{}</dd></div>\n", name, value,
-                     unit.empty() ? "" : fmt::format(" <small>{}</small>", unit));
-}
-
-std::string thousands(int number) {
-  std::string text = std::to_string(number);
-  for (auto at = static_cast<int>(text.size()) - 3; at > 0; at -= 3)
-    text.insert(static_cast<std::size_t>(at), "&#8239;");
-  return text;
-}
 
 struct Totals {
   int parts = 0, closed = 0;
@@ -100,8 +60,9 @@ std::string figures_row(std::string_view measure, const Figures& figures) {
 }
 
 std::string model_article(const ModelStory& model) {
-  std::string html = fmt::format("<article>\n<h3>{}</h3>\n<p class=\"meta\">{} faces, {}</p>\n", model.model.name,
-                                 thousands(model.faces), model.watertight ? "closed" : "open");
+  std::string html =
+      fmt::format("<article>\n<h3>{}</h3>\n<p class=\"meta\">{} faces, {}</p>\n", model.model.name,
+                  thousands(static_cast<std::uint64_t>(model.faces)), model.watertight ? "closed" : "open");
   html += figures(model.pictures, "row");
   html +=
       "<table>\n<thead><tr><th scope=\"col\">measure</th><th scope=\"col\">parts</th><th scope=\"col\">concavity</th>"
@@ -136,7 +97,7 @@ std::string pile_section(const PileStory& pile) {
 <p>{} copies, {} convex hulls in all, fall onto a floor in Bullet. Each body is a compound of its model's hulls with their mass
 and inertia. {:.0f} seconds of simulation took {:.1f} seconds of one core, and at the end no hull reached {}below the floor.</p>
 )",
-      pile.bodies, thousands(pile.hulls), pile.simulated, pile.seconds,
+      pile.bodies, thousands(static_cast<std::uint64_t>(pile.hulls)), pile.simulated, pile.seconds,
       pile.deepest > 0 ? fmt::format("more than {:.3f} R ", std::ceil(1000 * pile.deepest) / 1000) : "");
   html += figures(pile.falling, "row");
   return html + "<div class=\"wide\">\n" + figure(pile.heap_hulls, "eager") + "</div>\n</section>\n";
@@ -202,20 +163,6 @@ std::string closing(const Story& story) {
 
 }  // namespace
 
-Picture make_picture(const partwise::Image& image, std::string caption, std::string description) {
-  return {"data:image/png;base64," + base64(partwise::encode_png(image)), std::move(caption), std::move(description),
-          image.width, image.height};
-}
-
-Picture make_drawing(const std::string& svg, std::string caption, std::string description) {
-  const auto number = [&](std::string_view name) {
-    const std::size_t at = svg.find(fmt::format(" {}=\"", name));
-    return at == std::string::npos ? 0 : std::atoi(svg.c_str() + at + name.size() + 3);
-  };
-  return {"data:image/svg+xml;base64," + base64(svg), std::move(caption), std::move(description), number("width"),
-          number("height")};
-}
-
 std::string make_page(const Story& story) {
   std::string html = R"(<!doctype html>
 <html lang="en">
@@ -229,8 +176,8 @@ std::string make_page(const Story& story) {
 )";
   html += page_style;
   html += "</style>\n</head>\n<body>\n<main>\n";
-  html += opening(story) + models_section(story) + pile_section(story.pile) + outlines_section(story.outlines) +
-          use_section();
+  html += opening(story) + models_section(story) + pile_section(story.pile) + surfaces_section(story.surfaces) +
+          outlines_section(story.outlines) + use_section();
   return html + "</main>\n" + closing(story) + "</body>\n</html>\n";
 }
 

@@ -1,19 +1,16 @@
 // The page that tells the story: one HTML file, pictures and style inside, nothing fetched from anywhere.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "html.h"
 #include "models.h"
 #include "pile.h"
 
 namespace demo {
-
-struct Picture {
-  std::string data;  // a data: address
-  std::string caption, description;
-  int width = 0, height = 0;  // pixels
-};
 
 struct Figures {  // of one decomposition
   int parts = 0;
@@ -35,6 +32,25 @@ struct PileStory {
   Picture heap, heap_hulls;
 };
 
+struct FeatureStory {  // of one feature on one model
+  std::string name;
+  Picture map, parts;
+  std::uint64_t tests = 0;  // of visibility
+  int part_count = 0;
+  double feature_seconds = 0, cut_seconds = 0;
+};
+
+struct SurfaceStory {  // of one model
+  std::string_view name;
+  int vertices = 0;
+  std::vector<FeatureStory> features;
+};
+
+struct SurfacesStory {
+  std::vector<SurfaceStory> models;
+  std::vector<Picture> medial;
+};
+
 struct OutlineStory {  // of shapes in the plane
   double tolerance = 0;
   std::vector<Picture> clean, skeletons, noisy;
@@ -48,14 +64,10 @@ struct Story {
   int threads = 0;
   std::vector<ModelStory> models;
   PileStory pile;
+  SurfacesStory surfaces;
   OutlineStory outlines;
   double seconds = 0;  // of the whole run
 };
-
-Picture make_picture(const partwise::Image& image, std::string caption, std::string description);
-
-// Of an SVG drawing, which must say its width and height.
-Picture make_drawing(const std::string& svg, std::string caption, std::string description);
 
 std::string make_page(const Story& story);
 
