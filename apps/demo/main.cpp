@@ -70,7 +70,7 @@ std::vector<demo::Picture> tell_pictures(const demo::Model& model, const Decompo
   add(drawn.ridges, count(drawn.ridge_count, "ridge") + ", " + count(drawn.valley_count, "valley"),
       "the deep valleys as lines, the convex ridges as beads");
   add(drawn.parts, count(decomposed.parts.parts(), "part"), "faces in the colours of their parts");
-  add(drawn.hulls, "Their hulls, drawn apart", "the convex hull of each part");
+  add(drawn.hulls, "Hulls, drawn apart", "the convex hull of each part");
   return pictures;
 }
 
@@ -113,6 +113,7 @@ void run(const std::filesystem::path& folder) {
   }
   // The simulation uses one core, so the models' pictures are drawn beside it.
   std::vector<demo::PileKind> kinds;
+  kinds.reserve(decomposed.size());
   for (const Decomposed& model : decomposed) kinds.push_back({&model.mesh, &model.parts});
   const demo::PileSettings settings;
   std::future<demo::Pile> pile = std::async(std::launch::async, [&] { return demo::simulate_pile(kinds, settings); });
@@ -131,6 +132,7 @@ void run(const std::filesystem::path& folder) {
   story.outlines = demo::tell_outlines(herd);
   show("looking at surfaces");
   std::vector<demo::ShownModel> shown;
+  shown.reserve(models.size());
   for (std::size_t i = 0; i < models.size(); ++i) shown.push_back({&models[i], &decomposed[i].mesh});
   story.surfaces = demo::tell_surfaces(shown);
   show("simulating and drawing the heap");

@@ -121,7 +121,7 @@ cut is made for them. At 0.10 R the two decompositions agree to a Rand index of 
   html += figures(outlines.noisy, "row even");
   return html + R"(<h3>A crowd</h3>
 <p>Models from this page on one line, seen from the side: legs and bodies overlap and enclose gaps that matter, specks and ragged edges that do not.</p>
-)" + "<div class=\"wide\">\n" +
+)" + "<div class=\"wide strip\">\n" +
          figure(outlines.herd, "eager") + "</div>\n</section>\n";
 }
 

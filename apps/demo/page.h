@@ -37,7 +37,7 @@ struct FeatureStory {  // of one feature on one model
   Picture map, parts;
   std::uint64_t tests = 0;  // of visibility
   int part_count = 0;
-  double feature_seconds = 0, cut_seconds = 0;
+  double seconds = 0;  // of the values and the cut
 };
 
 struct SurfaceStory {  // of one model

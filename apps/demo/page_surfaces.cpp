@@ -31,13 +31,11 @@ std::string scale() {
 std::string features_table(const SurfaceStory& model) {
   std::string html =
       "<table>\n<thead><tr><th scope=\"col\">feature</th><th scope=\"col\">parts</th><th scope=\"col\">tests</th>"
-      "<th scope=\"col\">values</th><th scope=\"col\">cut</th></tr></thead>\n<tbody>\n";
+      "<th scope=\"col\">time</th></tr></thead>\n<tbody>\n";
   for (const FeatureStory& feature : model.features) {
-    html += fmt::format(
-        "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{:.2f} <small>s</small></td>"
-        "<td>{:.2f} <small>s</small></td></tr>\n",
-        feature.name, feature.part_count, feature.tests > 0 ? thousands(feature.tests) : "&ndash;",
-        feature.feature_seconds, feature.cut_seconds);
+    html += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{:.2f} <small>s</small></td></tr>\n",
+                        feature.name, feature.part_count, feature.tests > 0 ? thousands(feature.tests) : "&ndash;",
+                        feature.seconds);
   }
   return html + "</tbody>\n</table>\n";
 }
@@ -50,7 +48,7 @@ std::string surface_article(const SurfaceStory& model) {
   }
   return fmt::format("<article class=\"surface\">\n<h3>{}</h3>\n<p class=\"meta\">{} vertices</p>\n", model.name,
                      thousands(static_cast<std::uint64_t>(model.vertices))) +
-         figures(maps, "row paired") + figures(parts, "row paired") + features_table(model) + "</article>\n";
+         figures(maps, "row") + figures(parts, "row") + features_table(model) + "</article>\n";
 }
 
 }  // namespace
@@ -67,7 +65,7 @@ looks the same.</li>
 <li><b>CVF averaged</b> with the value on the other side of the wall, so that both sides are alike. Of the four the closest to people.</li>
 <li><b>CVF weak</b>: paths may be hidden for a tenth of R, so that values change more slowly.</li>
 </ul>
-<p>A test is one ray that asks whether two vertices see each other.</p>
+<p>A test is one ray that asks whether two vertices see each other. The colours of a picture run from its least value to its most:</p>
 )";
   html += scale();
   for (const SurfaceStory& model : surfaces.models) html += surface_article(model);

@@ -20,7 +20,7 @@ INSPECT = """
 const wide = document.documentElement.scrollWidth - document.documentElement.clientWidth;
 const images = [...document.images];
 const visible = element => { const box = element.getBoundingClientRect(); return box.width > 40 && box.height > 40; };
-const inside = element => element.closest('pre') !== null;
+const inside = element => element.closest('pre, .strip img') !== null;  // these scroll
 return {
   width: innerWidth,
   overflow: wide,
@@ -30,7 +30,14 @@ return {
   missing: images.filter(image => !image.complete || image.naturalWidth === 0 || !visible(image)).map(image => image.alt),
   unnamed: images.filter(image => !image.alt).length,
   foreign: images.filter(image => !image.src.startsWith('data:')).length + document.querySelectorAll('script, link[href^=http]').length,
-  models: document.querySelectorAll('article').length,
+  models: document.querySelectorAll('article:not(.surface)').length,
+  surfaces: document.querySelectorAll('article.surface').length,
+  surface_images: document.querySelectorAll('article.surface img').length,
+  medial_images: document.querySelectorAll('#surfaces > .row img').length,
+  surface_rows: [...document.querySelectorAll('article.surface tbody tr')].map(row => [...row.children].map(cell => cell.textContent)),
+  scales: document.querySelectorAll('.scale').length,
+  beyond_margin: [...document.querySelectorAll('table')].filter(table =>
+      table.getBoundingClientRect().right > table.closest('main').getBoundingClientRect().right - 15).length,
   facts: [...document.querySelectorAll('dd, td')].map(element => element.textContent),
   title: document.title,
   paper: getComputedStyle(document.documentElement).backgroundColor,
@@ -116,11 +123,27 @@ class Page(unittest.TestCase):
                     self.assertEqual(seen["unnamed"], 0)
                     self.assertEqual(seen["foreign"], 0)
                     self.assertGreaterEqual(seen["models"], 8)
-                    self.assertGreaterEqual(seen["images"], 4 * seen["models"] + 4 + 11)  # models, heap, outlines
+                    surface_images = seen["surface_images"] + seen["medial_images"]
+                    # models, heap, surfaces, outlines
+                    self.assertGreaterEqual(seen["images"], 4 * seen["models"] + 4 + surface_images + 11)
+                    self.assertEqual(seen["beyond_margin"], 0)
+                    self.check_surfaces(seen)
                     self.assertNotIn("nan", " ".join(seen["facts"]).lower())
                     dark = brightness(seen["paper"]) < brightness(seen["ink"])
                     self.assertEqual(dark, scheme == "dark")
                     self.assertEqual(self.browser.messages(), [])
+
+    def check_surfaces(self, seen):
+        """Four features a model, each a map and its parts, with counts; only the shape diameter asks no tests."""
+        self.assertEqual((seen["surfaces"], seen["surface_images"], seen["medial_images"], seen["scales"]), (4, 32, 4, 1))
+        self.assertEqual(len(seen["surface_rows"]), 16)
+        for name, parts, tests, time in seen["surface_rows"]:
+            self.assertGreater(int(parts), 1, name)
+            self.assertGreater(float(time.removesuffix(" s")), 0, name)
+            if name == "SDF":
+                self.assertEqual(tests, "\N{EN DASH}")
+            else:
+                self.assertGreater(int(tests.replace("\u202f", "")), 1000, name)
 
     def test_one_file_of_bearable_size(self):
         self.assertLess(page_path.stat().st_size, 8 * 1024 * 1024)

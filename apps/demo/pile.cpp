@@ -60,8 +60,9 @@ class Heap {
 
   void run(double until) {
     for (; steps_ < until * steps_a_second; ++steps_) {
+      const std::size_t releases = bodies_.size() / released_together;
       if (bodies_.size() < static_cast<std::size_t>(settings_.bodies) &&
-          steps_ >= settings_.interval * static_cast<double>(bodies_.size() / released_together) * steps_a_second) {
+          steps_ >= settings_.interval * static_cast<double>(releases) * steps_a_second) {
         release();
       }
       world_.step(btScalar(1) / steps_a_second);
@@ -162,14 +163,13 @@ Pile simulate_pile(std::span<const PileKind> kinds, const PileSettings& settings
 
 PilePictures draw_pile(const Pile& pile, const PileSettings& settings) {
   PilePictures pictures;
-  const double aspect = static_cast<double>(settings.width) / settings.height;
-  const partwise::PreviewCamera fall_camera = camera_for(pile.heap, 9.2, aspect);
-  for (const PreviewScene& scene : pile.falling) {
-    pictures.falling.push_back(render_preview(scene, fall_camera, {settings.width, settings.height, 2}));
-  }
-  const partwise::PreviewCamera heap_camera = camera_for(pile.heap, 0, 2 * aspect);
-  pictures.heap = render_preview(pile.heap, heap_camera, {2 * settings.width, settings.height, 2});
-  pictures.heap_hulls = render_preview(pile.heap_hulls, heap_camera, {2 * settings.width, settings.height, 2});
+  const partwise::PreviewSettings fall{settings.width, settings.height};
+  const partwise::PreviewCamera fall_camera = camera_for(pile.heap, 9.2, static_cast<double>(fall.width) / fall.height);
+  for (const PreviewScene& scene : pile.falling) pictures.falling.push_back(render_preview(scene, fall_camera, fall));
+  const partwise::PreviewSettings rest{settings.heap_width, settings.heap_height};
+  const partwise::PreviewCamera heap_camera = camera_for(pile.heap, 0, static_cast<double>(rest.width) / rest.height);
+  pictures.heap = render_preview(pile.heap, heap_camera, rest);
+  pictures.heap_hulls = render_preview(pile.heap_hulls, heap_camera, rest);
   return pictures;
 }
 

@@ -19,7 +19,8 @@ struct PileSettings {
   double interval = 0.45;                   // seconds between releases
   double seconds = 9;                       // simulated
   std::vector<double> frames{1.6, 3.2, 5};  // seconds at which the fall is drawn
-  int width = 640, height = 480;            // pixels of those
+  int width = 480, height = 440;            // pixels of those
+  int heap_width = 1280, heap_height = 480;
 };
 
 struct Pile {                                   // as simulated
@@ -34,7 +35,7 @@ Pile simulate_pile(std::span<const PileKind> kinds, const PileSettings& settings
 
 struct PilePictures {
   std::vector<partwise::Image> falling;
-  partwise::Image heap, heap_hulls;  // twice as wide
+  partwise::Image heap, heap_hulls;
 };
 
 PilePictures draw_pile(const Pile& pile, const PileSettings& settings = {});

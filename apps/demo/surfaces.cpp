@@ -63,14 +63,14 @@ FeatureStory tell_feature(const Feature& feature, const ShownModel& shown) {
   }
   const partwise::Segmentation cut = segment(mesh, {.feature = feature.feature});
   story.part_count = cut.parts;
-  for (const auto& [stage, seconds] : cut.seconds)
-    (stage == "feature" ? story.feature_seconds : story.cut_seconds) += seconds;
+  for (const auto& [stage, seconds] : cut.seconds) story.seconds += seconds;
   const double azimuth = shown.model->azimuth;
   story.map = make_picture(draw(coloured_by_value(mesh, values), azimuth), story.name,
                            fmt::format("{}: {} from dark blue to yellow", shown.model->name, feature.name));
-  story.parts = make_picture(
-      draw(coloured_by_part(mesh, cut.labels), azimuth), fmt::format("{} part{}", cut.parts, cut.parts == 1 ? "" : "s"),
-      fmt::format("{}: faces in the colours of their parts by {}", shown.model->name, feature.name));
+  story.parts =
+      make_picture(draw(coloured_by_part(mesh, cut.labels), azimuth),
+                   fmt::format("{}: {} part{}", feature.name, cut.parts, cut.parts == 1 ? "" : "s"),
+                   fmt::format("{}: faces in the colours of their parts by {}", shown.model->name, feature.name));
   return story;
 }
 
