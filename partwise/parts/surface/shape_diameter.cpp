@@ -67,7 +67,7 @@ class Thickness {
     const auto& corners = mesh_.faces.row(face);
     const Point middle =
         (mesh_.vertices.row(corners[0]) + mesh_.vertices.row(corners[1]) + mesh_.vertices.row(corners[2])) / 3;
-    const Point axis = inward.normalized();
+    const Point axis = inward.stableNormalized();  // lengths may overflow when squared
     const Point side = Point(axis.transpose().unitOrthogonal().transpose()), other = axis.cross(side);
     lengths.clear();
     for (const auto& ray : rays_.rowwise()) {

@@ -171,5 +171,12 @@ TEST(ShapeDiameter, RefusesWhatItCannotUse) {
   EXPECT_THROW(shape_diameter(mesh, {.cone_angle = 4}), InputError);
 }
 
+TEST(ShapeDiameter, ScalesWithShapesTooLargeToSquare) {
+  const Mesh mesh = test::sphere(1, 12);
+  const Mesh huge{mesh.vertices * 0x1p490, mesh.faces};  // areas fit a double, their squares do not
+  const Eigen::VectorXd values = shape_diameter(mesh).values, large = shape_diameter(huge).values;
+  for (Eigen::Index f = 0; f < values.size(); ++f) EXPECT_NEAR(large[f] * 0x1p-490, values[f], 1e-5);
+}
+
 }  // namespace
 }  // namespace partwise
