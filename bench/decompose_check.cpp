@@ -16,6 +16,7 @@
 #include "bench/check/coverage.h"
 #include "bench/check/exposure.h"
 #include "bench/check/labelling.h"
+#include "bench/tool.h"
 
 namespace {
 
@@ -138,18 +139,10 @@ int main(int argc, char** argv) {
   app.add_option("--tolerance", options.exposure.limit, "share of R that an exposed point may stick out");
   app.add_option("--samples", options.exposure.samples, "points drawn on and in the hulls, at least");
   app.add_option("--seed", options.seed, "of samples and lines");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  options.exposure.seed = options.coverage.seed = options.seed;
-  try {
+  return run_tool("decompose_check", app, argc, argv, [&] {
+    options.exposure.seed = options.coverage.seed = options.seed;
     const Verdict verdict = judge(options);
     std::cout << verdict.report.dump() << std::endl;
     return verdict.failures.empty() ? 0 : 3;
-  } catch (const std::exception& error) {
-    std::cerr << "decompose_check: " << error.what() << '\n';
-    return 1;
-  }
+  });
 }

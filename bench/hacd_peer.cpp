@@ -22,6 +22,7 @@
 
 #include "bench/check/shape.h"
 #include "bench/check/solid.h"
+#include "bench/tool.h"
 
 namespace {
 
@@ -101,12 +102,7 @@ int main(int argc, char** argv) {
   app.add_option("--hulls", output, "OBJ, an object a hull")->required();
   app.add_option("--tolerance", tolerance, "share of the bounding-sphere radius");
   app.add_option("--faces", faces, "to simplify to");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  try {
+  return run_tool("hacd_peer", app, argc, argv, [&] {
     const Shape shape = read_shape(mesh);
     const double radius = Solid(shape).radius();
     const std::clock_t start = std::clock();
@@ -121,8 +117,5 @@ int main(int argc, char** argv) {
                                         {"seconds", seconds}}
               << std::endl;
     return 0;
-  } catch (const std::exception& error) {
-    std::cerr << "hacd_peer: " << error.what() << '\n';
-    return 1;
-  }
+  });
 }

@@ -5,8 +5,7 @@
 // The judge's own axis is that of check/medial_axis.h, filtered by the same angle as the points. Prints one JSON
 // object, lengths as shares of the bounding-sphere radius R: distances of the points to the judge's axis (`to_axis`),
 // of that axis to the points (`from_axis`: what the points leave out), of a second axis from another sample to the
-// first
-// (`repeat`: how exact the judge is), and by how much the radii differ from the distance to the surface
+// first (`repeat`: how exact the judge is), and by how much the radii differ from the distance to the surface
 // (`radius_error`); each as mean, 95 % and largest. `inside`: the share of the points in the solid, null for an open
 // mesh. Exits 0, 1 when it cannot be done, 2 for wrong usage.
 #include <CLI/CLI.hpp>
@@ -19,6 +18,7 @@
 #include <stdexcept>
 
 #include "bench/check/medial_axis.h"
+#include "bench/tool.h"
 
 namespace {
 
@@ -78,12 +78,7 @@ int main(int argc, char** argv) {
   app.add_option("--least-angle", settings.least_angle, "degrees")->check(CLI::Range(0.0, 180.0));
   app.add_option("--samples", settings.samples, "of the surface")->check(CLI::Range(100, 10'000'000));
   app.add_option("--seed", settings.seed, "of the samples");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  try {
+  return run_tool("medial_check", app, argc, argv, [&] {
     const Shape shape = read_shape(mesh);
     const Solid solid(shape);
     const Balls balls = read_balls(points);
@@ -102,8 +97,6 @@ int main(int argc, char** argv) {
                               {"inside", share_inside(balls, solid)}}
                      .dump()
               << '\n';
-  } catch (const std::exception& error) {
-    std::cerr << "medial_check: " << error.what() << '\n';
-    return 1;
-  }
+    return 0;
+  });
 }

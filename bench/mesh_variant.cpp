@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "bench/tool.h"
 #include "bench/variants/variants.h"
 #include "partwise/geometry/mesh_io.h"
 
@@ -21,20 +22,13 @@ int main(int argc, char** argv) {
   app.add_option("--noise", noise, "share of the bounding-sphere radius")->check(CLI::NonNegativeNumber);
   app.add_option("--seed", seed, "of the noise");
   app.add_option("--vertices", vertices, "about so many")->check(CLI::PositiveNumber);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  try {
+  return partwise::bench::run_tool("mesh_variant", app, argc, argv, [&] {
     partwise::Mesh mesh = partwise::read_mesh(path);
     if (vertices > 0) mesh = partwise::bench::rippled(partwise::bench::finer(mesh, vertices));
     if (noise > 0)
       mesh =
           partwise::bench::noisy(mesh, noise * partwise::bounding_sphere(mesh).radius, seed, /*along_normals=*/false);
     partwise::write_mesh(out, mesh);
-  } catch (const std::exception& error) {
-    std::cerr << "mesh_variant: " << error.what() << '\n';
-    return 1;
-  }
+    return 0;
+  });
 }

@@ -27,6 +27,7 @@
 #include <numeric>
 
 #include "bench/ridges/ridge_match.h"
+#include "bench/tool.h"
 #include "bench/variants/variants.h"
 #include "partwise/geometry/mesh_io.h"
 #include "partwise/geometry/topology.h"
@@ -128,12 +129,7 @@ int main(int argc, char** argv) {
   app.add_option("--seeds", seeds, "noisy copies an amplitude")->check(CLI::PositiveNumber);
   app.add_flag("--along-normals", along_normals, "move vertices along their normals only");
   app.add_option("--threads", threads)->check(CLI::PositiveNumber);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  try {
+  return partwise::bench::run_tool("ridge_noise", app, argc, argv, [&] {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
     Mesh mesh = partwise::read_mesh(path);
     const partwise::Sphere sphere = partwise::bounding_sphere(mesh);
@@ -156,8 +152,6 @@ int main(int argc, char** argv) {
     report["other_tolerance"] = std::move(others);
     report["noisy"] = std::move(runs);
     std::cout << report.dump() << '\n';
-  } catch (const std::exception& error) {
-    std::cerr << "ridge_noise: " << error.what() << '\n';
-    return 1;
-  }
+    return 0;
+  });
 }

@@ -19,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/tool.h"
 #include "partwise/geometry/mesh_io.h"
 #include "partwise/parts/surface/continuous_visibility.h"
 
@@ -78,12 +79,7 @@ int main(int argc, char** argv) {
   CLI::App app("Do the ways of finding continuously visible regions find the same?");
   app.add_option("mesh", path, "any mesh that the library reads")->required();
   app.add_option("--threads", threads)->check(CLI::PositiveNumber);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  try {
+  return partwise::bench::run_tool("visibility_compare", app, argc, argv, [&] {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
     const partwise::Mesh mesh = partwise::read_mesh(path);
     const partwise::VisibilityVectors bfs = partwise::visibility_vectors(mesh, VisibilityMethod::bfs);
@@ -92,8 +88,6 @@ int main(int argc, char** argv) {
     for (const auto& [name, method] : kMethods)
       methods[name] = compared(partwise::visibility_vectors(mesh, method), bfs, areas);
     std::cout << ordered_json{{"mesh", path}, {"vertices", bfs.sees.size()}, {"methods", methods}}.dump() << '\n';
-  } catch (const std::exception& error) {
-    std::cerr << "visibility_compare: " << error.what() << '\n';
-    return 1;
-  }
+    return 0;
+  });
 }

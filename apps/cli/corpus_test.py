@@ -1,7 +1,7 @@
 """Replays a corpus of bad and odd files with the program: what can be used gives every output that was asked for, what
 cannot gives exit 1 and one line that holds the expected words, and nothing takes long.
 
-    corpus_test.py PROGRAM CORPUS_FOLDER Meshes|Outlines
+    corpus_test.py PROGRAM CORPUS_FOLDER Meshes|Surfaces|Outlines
 """
 
 import json
@@ -57,6 +57,30 @@ class Meshes(Corpus, unittest.TestCase):
         labels = (folder / "a.seg").read_text().split()
         self.assertEqual(len(labels), report["faces"])
         self.assertEqual(len(set(labels)), report["parts"])
+
+
+class Surfaces(unittest.TestCase):
+    """What decompose can read, the verbs for surfaces can, and what it refuses they refuse."""
+
+    verbs = (["feature", "--kind", "cvf-avg", "--values"], ["segment", "--feature", "sdf", "--labels"], ["medial", "--points"])
+
+    def test_every_file(self):
+        for case in json.loads((CORPUS / "expected.json").read_text()):
+            for verb in self.verbs:
+                with self.subTest(file=case["file"], verb=verb[0]), tempfile.TemporaryDirectory() as folder:
+                    self.replay(case, verb, Path(folder) / "a.ply")
+
+    def replay(self, case, verb, output):
+        result = subprocess.run([PROGRAM, verb[0], CORPUS / case["file"], *verb[1:], output], capture_output=True,
+                                timeout=60, encoding="utf-8", errors="replace")
+        if case["decompose"] == "ok":
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+            self.assertTrue(output.exists())
+        else:
+            self.assertEqual(result.returncode, 1, result.stderr)
+            self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+            self.assertIn(case["file"], result.stderr)
+            self.assertFalse(output.exists())
 
 
 class Outlines(Corpus, unittest.TestCase):

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "partwise/appearance/colouring.h"
 #include "partwise/appearance/palette.h"
 #include "partwise/geometry/topology.h"
 #include "partwise/parts/solid/convex_ridges.h"
@@ -19,14 +20,6 @@ using partwise::PreviewScene;
 
 Point middle(const partwise::Vertices& points) {
   return (points.colwise().minCoeff() + points.colwise().maxCoeff()) / 2;
-}
-
-Image draw(PreviewScene scene, double azimuth) {
-  partwise::PreviewView view;
-  view.azimuth = azimuth;
-  const partwise::PreviewSettings settings;
-  const double aspect = static_cast<double>(settings.width) / settings.height;
-  return render_preview(scene, frame_scene(scene, view, aspect), settings);
 }
 
 // Without a deep valley (rims, which run on the hull, do not count) the hull vertices are one ridge.
@@ -61,7 +54,7 @@ Image draw_ridges(const Mesh& mesh, const partwise::Decomposition& parts, double
       scene.points.push_back({positions(ridge), 0.014 * parts.radius, partwise::part_colour(pictures.ridge_count++)});
     }
   }
-  return draw(std::move(scene), azimuth);
+  return draw(scene, azimuth);
 }
 
 }  // namespace
@@ -82,14 +75,20 @@ std::vector<PreviewMesh> hull_meshes(const partwise::Decomposition& parts, doubl
   return meshes;
 }
 
+Image draw(const PreviewScene& scene, double azimuth, const partwise::PreviewSettings& settings) {
+  partwise::PreviewView view;
+  view.azimuth = azimuth;
+  const double aspect = static_cast<double>(settings.width) / settings.height;
+  return render_preview(scene, frame_scene(scene, view, aspect), settings);
+}
+
 ModelPictures draw_model(const Mesh& mesh, const partwise::Decomposition& parts, double azimuth) {
   ModelPictures pictures;
   PreviewScene scene;
   scene.meshes.push_back({mesh, {}});
   pictures.input = draw(scene, azimuth);
   pictures.ridges = draw_ridges(mesh, parts, azimuth, pictures);
-  scene.meshes[0].mesh = parts.mesh;
-  for (const int label : parts.mesh_labels) scene.meshes[0].face_colours.push_back(partwise::part_colour(label));
+  scene.meshes[0] = coloured_by_part(parts.mesh, parts.mesh_labels);
   pictures.parts = draw(scene, azimuth);
   scene.meshes = hull_meshes(parts, 0.3);
   pictures.hulls = draw(scene, azimuth);

@@ -15,7 +15,10 @@ struct ModelPictures {
   int valley_count = 0;  // deep valleys between them
 };
 
-// `azimuth`: the viewer's, in degrees.
+// The scene from `azimuth` degrees, framed.
+partwise::Image draw(const partwise::PreviewScene& scene, double azimuth,
+                     const partwise::PreviewSettings& settings = {});
+
 ModelPictures draw_model(const partwise::Mesh& mesh, const partwise::Decomposition& parts, double azimuth);
 
 // The hulls of a decomposition as preview meshes in the colours of the parts; each is moved away from their common

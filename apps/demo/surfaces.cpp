@@ -6,6 +6,7 @@
 #include <array>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "partwise/appearance/colouring.h"
 #include "partwise/base/error.h"
@@ -13,6 +14,7 @@
 #include "partwise/parts/surface/medial_samples.h"
 #include "partwise/parts/surface/segmentation.h"
 #include "partwise/parts/surface/shape_diameter.h"
+#include "pictures.h"
 
 namespace demo {
 namespace {
@@ -35,18 +37,12 @@ constexpr std::array<Feature, 4> features{{
     {SurfaceFeature::visibility_weak, VisibilityKind::weak, "CVF weak"},
 }};
 
-partwise::Image draw(const partwise::PreviewScene& scene, double azimuth) {
-  const partwise::PreviewSettings settings{.width = 396, .height = 330};
-  partwise::PreviewView view;
-  view.azimuth = azimuth;
-  const double aspect = static_cast<double>(settings.width) / settings.height;
-  return render_preview(scene, frame_scene(scene, view, aspect), settings);
-}
+constexpr partwise::PreviewSettings small{.width = 396, .height = 330};
 
-partwise::Image draw(partwise::PreviewMesh mesh, double azimuth) {
+partwise::Image draw_mesh(partwise::PreviewMesh mesh, double azimuth) {
   partwise::PreviewScene scene;
   scene.meshes.push_back(std::move(mesh));
-  return draw(scene, azimuth);
+  return draw(scene, azimuth, small);
 }
 
 FeatureStory tell_feature(const Feature& feature, const ShownModel& shown) {
@@ -65,10 +61,10 @@ FeatureStory tell_feature(const Feature& feature, const ShownModel& shown) {
   story.part_count = cut.parts;
   for (const auto& [stage, seconds] : cut.seconds) story.seconds += seconds;
   const double azimuth = shown.model->azimuth;
-  story.map = make_picture(draw(coloured_by_value(mesh, values), azimuth), story.name,
+  story.map = make_picture(draw_mesh(coloured_by_value(mesh, values), azimuth), story.name,
                            fmt::format("{}: {} from dark blue to yellow", shown.model->name, feature.name));
   story.parts =
-      make_picture(draw(coloured_by_part(mesh, cut.labels), azimuth),
+      make_picture(draw_mesh(coloured_by_part(mesh, cut.labels), azimuth),
                    fmt::format("{}: {} part{}", feature.name, cut.parts, cut.parts == 1 ? "" : "s"),
                    fmt::format("{}: faces in the colours of their parts by {}", shown.model->name, feature.name));
   return story;
@@ -104,7 +100,7 @@ Picture tell_medial(const ShownModel& shown) {
   partwise::PreviewScene scene;
   scene.meshes.push_back({far_half(mesh, sphere.centre, Point::UnitX()), {}});
   scene.points = partwise::coloured_by_value(samples.points, samples.radii, 0.012 * sphere.radius);
-  return make_picture(draw(scene, 90), fmt::format("{}: {} points", shown.model->name, samples.radii.size()),
+  return make_picture(draw(scene, 90, small), fmt::format("{}: {} points", shown.model->name, samples.radii.size()),
                       fmt::format("{}, cut open, with points of its medial axis as beads", shown.model->name));
 }
 

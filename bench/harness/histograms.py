@@ -60,20 +60,15 @@ def histograms_of(settings, mesh, noise, seed=1):
     """By kind, of the mesh with noise. Errors: ValueError with a program's complaint."""
     with tempfile.TemporaryDirectory() as folder:
         copy, values = Path(folder) / f"{mesh.stem}.off", Path(folder) / "values.txt"
-        _expect(settings, [settings.tools / "mesh_variant", mesh, copy, "--noise", noise, "--seed", seed])
+        process.expect([settings.tools / "mesh_variant", mesh, copy, "--noise", noise, "--seed", seed],
+                       settings.time_limit)
         areas = vertex_areas(*meshes.read_off(copy))
         found = {}
         for kind in KINDS:
-            _expect(settings, [settings.program, "feature", copy, "--kind", kind, "--values", values, "--threads",
-                               settings.threads, "--quiet"])
+            process.expect([settings.program, "feature", copy, "--kind", kind, "--values", values, "--threads",
+                            settings.threads, "--quiet"], settings.time_limit)
             found[kind] = histogram([float(line) for line in values.read_text().split()], areas, kind)
         return found
-
-
-def _expect(settings, command):
-    run = process.run(command, settings.time_limit)
-    if run.trouble:
-        raise ValueError(run.trouble)
 
 
 def noise_and_pose(settings, paths, category, amplitudes, jobs):

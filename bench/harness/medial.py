@@ -1,11 +1,11 @@
 """`partwise medial` judged by medial_check, whose own axis comes from the Voronoi diagram of a dense sample."""
 
+import json
 import tempfile
 from pathlib import Path
 
 from . import process
 from .table import cell, largest, mean, table
-from .visibility import report_of
 
 COMPARED = ("to_axis", "from_axis", "repeat", "radius_error")
 
@@ -16,14 +16,9 @@ def judged(settings, mesh, samples):
         triangles, points = Path(folder) / f"{mesh.stem}.off", Path(folder) / "points.ply"
         for command in ([settings.tools / "mesh_variant", mesh, triangles],
                         [settings.program, "medial", triangles, "--points", points, "--threads", settings.threads]):
-            run = process.run(command, settings.time_limit)
-            if run.trouble:
-                raise ValueError(run.trouble)
-        run, report = report_of([settings.tools / "medial_check", triangles, points, "--samples", samples],
-                                settings.time_limit)
-        if not report:
-            raise ValueError(run.trouble)
-        return report
+            process.expect(command, settings.time_limit)
+        judge = [settings.tools / "medial_check", triangles, points, "--samples", samples]
+        return json.loads(process.expect(judge, settings.time_limit).output)
 
 
 def medial(settings, paths, category, samples, jobs):
@@ -33,16 +28,19 @@ def medial(settings, paths, category, samples, jobs):
         except ValueError as error:
             return str(error)
 
-    found = list(zip(paths, jobs(one, paths)))
-    reports = [report for _, report in found if not isinstance(report, str)]
-    rows = [[f"{path.stem} {category(path)}", *_row(report)] for path, report in found if report in reports]
+    reports, rows, troubles = [], [], []
+    for path, found in zip(paths, jobs(one, paths)):
+        if isinstance(found, str):
+            troubles.append(f"{path.stem}: {found}")
+        else:
+            reports.append(found)
+            rows.append([f"{path.stem} {category(path)}", *_row(found)])
     total = totals(reports)
     rows.append(["mean", *_row(total)])
     print(table(["mesh", "points", "axis", "| to axis: mean", "95 %", "| from axis: mean", "95 %", "| judge's own: mean",
                  "95 %", "| radius: mean", "95 %", "| inside"], rows))
-    for path, report in found:
-        if report not in reports:
-            print(f"{path.stem}: {report}")
+    for trouble in troubles:
+        print(trouble)
     print(f"shares of R; the judge draws {samples} samples of the surface")
     return {"finished": len(reports), "samples": samples, "totals": total,
             "largest": {name: largest(report[name]["p95"] for report in reports) for name in COMPARED}}

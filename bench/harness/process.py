@@ -32,6 +32,14 @@ class Run:
         return (self.message.strip().splitlines() or [f"exit status {self.status}"])[-1]
 
 
+def expect(command, time_limit):
+    """As run. Errors: ValueError with what the program complained of."""
+    done = run(command, time_limit)
+    if done.trouble:
+        raise ValueError(done.trouble)
+    return done
+
+
 def run(command, time_limit):
     """`time_limit`: wall seconds, after which the program is killed."""
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:

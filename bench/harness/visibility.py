@@ -191,7 +191,7 @@ def growth(settings, paths, sizes, category, jobs):
         exponents.append(exponent(vertices, seconds) if known else None)
         test_exponents.append(exponent(vertices, tests) if known else None)
         by_mesh[path.stem] = {"vertices": vertices, "cpu_seconds": seconds, "exponent": exponents[-1]}
-        rows.append([f"  exponent", "", "", cell(exponents[-1], ".2f"), "", cell(test_exponents[-1], ".2f")])
+        rows.append(["  exponent", "", "", cell(exponents[-1], ".2f"), "", cell(test_exponents[-1], ".2f")])
     print(table(["mesh", "vertices", "wall s", "CPU s", "MB", "million tests"], rows))
     print(f"{settings.threads} threads; mean exponents: CPU seconds {cell(mean(exponents), '.2f')},"
           f" tests {cell(mean(test_exponents), '.2f')}; dissertation: about {FILTER_SECONDS_AT_10K} s for 10k vertices")

@@ -1,7 +1,5 @@
 #include "bench/variants/variants.h"
 
-#include <Eigen/Geometry>
-
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -11,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "partwise/geometry/inner_visibility.h"
 #include "partwise/geometry/subdivide.h"
 
 namespace partwise::bench {
@@ -21,20 +20,11 @@ constexpr double kRippleHeight = 0.002, kRippleLength = 0.2;  // R
 // Even in [-1, 1).
 double even(std::mt19937_64& random) { return static_cast<double>(random() >> 11U) * 0x1p-52 - 1; }
 
-Vertices normals(const Mesh& mesh) {
-  Vertices sums = Vertices::Zero(mesh.vertices.rows(), 3);
-  for (const auto& f : mesh.faces.rowwise()) {
-    const Point a = mesh.vertices.row(f[0]), b = mesh.vertices.row(f[1]), c = mesh.vertices.row(f[2]);
-    for (const int v : f) sums.row(v) += (b - a).cross(c - a);
-  }
-  return sums.rowwise().normalized();
-}
-
 }  // namespace
 
 Mesh noisy(Mesh mesh, double amplitude, int seed, bool along_normals) {
   std::mt19937_64 random(static_cast<std::uint64_t>(seed));
-  const Vertices normal = along_normals ? normals(mesh) : Vertices();
+  const Vertices normal = along_normals ? vertex_normals(mesh) : Vertices();
   for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
     Point step;
     if (along_normals) {
@@ -69,7 +59,7 @@ Mesh finer(const Mesh& mesh, int vertices) {
 
 Mesh rippled(Mesh mesh) {
   const Sphere sphere = bounding_sphere(mesh);
-  const Vertices normal = normals(mesh);
+  const Vertices normal = vertex_normals(mesh);
   const double turn = 2 * std::numbers::pi / kRippleLength;
   for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
     const Point at = turn * (mesh.vertices.row(v) - sphere.centre) / sphere.radius;

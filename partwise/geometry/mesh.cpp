@@ -91,7 +91,7 @@ std::vector<double> face_areas(const Mesh& mesh) {
   areas.reserve(static_cast<std::size_t>(mesh.faces.rows()));
   for (const auto& f : mesh.faces.rowwise()) {
     const Point a = mesh.vertices.row(f[0]), b = mesh.vertices.row(f[1]), c = mesh.vertices.row(f[2]);
-    areas.push_back((b - a).cross(c - a).norm() / 2);
+    areas.push_back((b - a).cross(c - a).stableNorm() / 2);  // the square of an area may be no number
   }
   return areas;
 }

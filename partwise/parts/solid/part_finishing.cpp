@@ -118,10 +118,11 @@ void fill_interior(const Mesh& mesh, const SpaceSamples& space, std::vector<Hull
       Corners corners = exact_corners(mesh, parts[p]);
       corners.append(point, {-1});
       set_hull(larger, corners, minimum_thickness);
+      // What stays thin gains nothing, and thin hulls are made anew from the part's vertices alone when delivered.
+      if (larger.thickened) continue;
       double taken = 1e-6 * distance;
       for (int a : space.air.inside(larger.hull)) taken += !air[a];
-      // What stays thin gains nothing, and thin hulls are made anew from the part's vertices alone when delivered.
-      if (larger.thickened || taken >= least || !promise.holds(larger.hull)) continue;
+      if (taken >= least || !promise.holds(larger.hull)) continue;
       least = taken;
       chosen = p;
       grown = std::move(larger);

@@ -212,7 +212,7 @@ TEST(SpaceSamples, CountsApproximateVolumes) {
 }
 
 TEST(SpaceSamples, AHoleBlursTheSolidAndASheetHasNone) {
-  Mesh mesh = test::l_shape(6, 2);
+  const Mesh mesh = test::l_shape(6, 2);
   const Mesh hull = convex_hull(mesh.vertices, 1e-6).mesh;
   const Mesh open{mesh.vertices, mesh.faces.topRows(mesh.faces.rows() - 1)};
   const SpaceSamples space = sample_space(SurfaceQuery(open), hull, 4000);

@@ -149,7 +149,6 @@ std::vector<char> joined(const SurfaceGraph& graph, int start, const std::vector
   return reached;
 }
 
-// By the definitions, in the plainest way.
 // It errs where a path to the end of the positive region meets an island, which on these shapes is seldom or never.
 TEST(ContinuousVisibility, PublishedFilterAgreesOnMostViewpoints) {
   for (const Mesh& mesh : {wavy(40, 30), cup(8, 24), test::dumbbell(40, 20)}) {
@@ -162,6 +161,7 @@ TEST(ContinuousVisibility, PublishedFilterAgreesOnMostViewpoints) {
   }
 }
 
+// By the definitions, in the plainest way.
 TEST(ContinuousVisibility, SearchFindsWhatTheDefinitionSays) {
   int islands = 0;
   for (const Mesh& mesh : {wavy(14, 10), cup(4, 10), shapes()[2]}) {

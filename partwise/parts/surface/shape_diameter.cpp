@@ -56,10 +56,15 @@ double mean_without_outliers(std::vector<double>& lengths) {
   return count > 0 ? sum / count : middle;
 }
 
+// Scaled to R = 1, so that areas of meshes of any size can be squared.
+Mesh scaled(const Mesh& mesh, const Sphere& sphere) {
+  return {(mesh.vertices.rowwise() - sphere.centre) / sphere.radius, mesh.faces};
+}
+
 class Thickness {
  public:
-  Thickness(const Mesh& mesh, const ShapeDiameterSettings& settings)
-      : mesh_(mesh), surface_(mesh), rays_(cone_rays(settings)), from_(kOffset * bounding_sphere(mesh).radius) {}
+  Thickness(const Mesh& mesh, const Sphere& sphere, const ShapeDiameterSettings& settings)
+      : radius_(sphere.radius), mesh_(scaled(mesh, sphere)), surface_(mesh_), rays_(cone_rays(settings)) {}
 
   double of(Eigen::Index face, std::vector<double>& lengths) const {
     const Point inward = -area_vector(face);
@@ -67,13 +72,13 @@ class Thickness {
     const auto& corners = mesh_.faces.row(face);
     const Point middle =
         (mesh_.vertices.row(corners[0]) + mesh_.vertices.row(corners[1]) + mesh_.vertices.row(corners[2])) / 3;
-    const Point axis = inward.stableNormalized();  // lengths may overflow when squared
+    const Point axis = inward.normalized();
     const Point side = Point(axis.transpose().unitOrthogonal().transpose()), other = axis.cross(side);
     lengths.clear();
     for (const auto& ray : rays_.rowwise()) {
       const Point direction = (ray[0] * side + ray[1] * other + ray[2] * axis).normalized();
-      const auto hit = surface_.first_hit(middle, direction, from_);
-      if (hit.face >= 0 && area_vector(hit.face).dot(direction) > 0) lengths.push_back(hit.distance);
+      const auto hit = surface_.first_hit(middle, direction, kOffset);
+      if (hit.face >= 0 && area_vector(hit.face).dot(direction) > 0) lengths.push_back(hit.distance * radius_);
     }
     return mean_without_outliers(lengths);
   }
@@ -84,10 +89,10 @@ class Thickness {
     return (mesh_.vertices.row(mesh_.faces(face, 1)) - a).cross(mesh_.vertices.row(mesh_.faces(face, 2)) - a);
   }
 
-  const Mesh& mesh_;
+  double radius_;
+  Mesh mesh_;
   SurfaceQuery surface_;
   Vertices rays_;
-  double from_;
 };
 
 void check(const ShapeDiameterSettings& settings) {
@@ -103,7 +108,7 @@ void check(const ShapeDiameterSettings& settings) {
 
 ShapeDiameter shape_diameter(const Mesh& mesh, const ShapeDiameterSettings& settings, const Progress& progress) {
   check(settings);
-  const Thickness thickness(mesh, settings);
+  const Thickness thickness(mesh, bounding_sphere(mesh), settings);
   ShapeDiameter result;
   result.values.resize(mesh.faces.rows());
   constexpr Eigen::Index kBatch = 8192;
