@@ -246,6 +246,14 @@ class Renderer {
 
 }  // namespace
 
+PreviewCamera frame_scene(const PreviewScene& scene, const PreviewView& view, double width_over_height) {
+  std::vector<RoundPoints> bodies;
+  for (const PreviewMesh& mesh : scene.meshes) bodies.push_back({&mesh.mesh.vertices, 0});
+  for (const PreviewCurve& curve : scene.curves) bodies.push_back({&curve.points, curve.radius});
+  for (const PreviewPoints& points : scene.points) bodies.push_back({&points.points, points.radius});
+  return frame_points(bodies, view, width_over_height);
+}
+
 Image render_preview(const PreviewScene& scene, const PreviewCamera& camera, const PreviewSettings& settings) {
   PARTWISE_CHECK(settings.width, >=, 1);
   PARTWISE_CHECK(settings.height, >=, 1);

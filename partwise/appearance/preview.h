@@ -17,6 +17,7 @@
 
 #include <vector>
 
+#include "partwise/appearance/camera.h"
 #include "partwise/geometry/mesh.h"
 #include "partwise/imaging/image.h"
 
@@ -48,20 +49,8 @@ struct PreviewScene {
   bool ground = true;  // the plane below the lowest vertex of the meshes takes a shadow
 };
 
-struct PreviewCamera {
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  // rows: right, up, and back (towards the viewer)
-  Point position = Point::Zero();
-  // Half of the picture's height: in model units when orthographic, else at distance 1 from the position.
-  double half_height = 1;
-  bool orthographic = false;
-};
-
-struct PreviewView {
-  double azimuth = 35;        // of the viewer about y, from +z towards +x
-  double elevation = 20;      // of the viewer above the horizon, -90 to 90
-  double field_of_view = 24;  // of the picture's height; 0: orthographic
-  double fill = 0.86;         // share of the picture's width or height that the scene takes, in (0, 1]
-};
+using PreviewCamera = Camera;
+using PreviewView = CameraView;
 
 // The nearest camera in the given direction that sees the whole scene, which touches the frame on opposite sides.
 PreviewCamera frame_scene(const PreviewScene& scene, const PreviewView& view, double width_over_height);

@@ -6,40 +6,14 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "partwise/appearance/corner_normals.h"
 #include "partwise/base/error.h"
 
 namespace partwise {
 namespace {
 
 using Vector = Eigen::Vector3f;
-
-// For each corner of each face the mean normal, by area, of the faces at its vertex that lie within the crease angle.
-Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> corner_normals(const PreviewMesh& preview) {
-  const Mesh& mesh = preview.mesh;
-  const Eigen::Index faces = mesh.faces.rows();
-  Vertices area(faces, 3), unit(faces, 3);
-  std::vector<std::vector<Eigen::Index>> around(static_cast<std::size_t>(mesh.vertices.rows()));
-  for (Eigen::Index f = 0; f < faces; ++f) {
-    const Point a = mesh.vertices.row(mesh.faces(f, 0));
-    area.row(f) = Point(mesh.vertices.row(mesh.faces(f, 1)) - a).cross(Point(mesh.vertices.row(mesh.faces(f, 2)) - a));
-    unit.row(f) = area.row(f).stableNormalized();
-    for (int k = 0; k < 3; ++k) around[static_cast<std::size_t>(mesh.faces(f, k))].push_back(f);
-  }
-  const double least_cosine = std::cos(preview.crease_degrees * std::numbers::pi / 180);
-  Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> normals(3 * faces, 3);
-  for (Eigen::Index f = 0; f < faces; ++f) {
-    for (int k = 0; k < 3; ++k) {
-      Point sum = area.row(f);
-      for (const Eigen::Index g : around[static_cast<std::size_t>(mesh.faces(f, k))]) {
-        if (g != f && unit.row(f).dot(unit.row(g)) > least_cosine) sum += area.row(g);
-      }
-      normals.row(3 * f + k) = sum.stableNormalized().cast<float>();
-    }
-  }
-  return normals;
-}
 
 RTCRay make_ray(const Vector& origin, const Vector& direction) {
   RTCRay ray{};
@@ -74,7 +48,7 @@ void PreviewRays::add(const PreviewMesh& preview) {
     body.colours.push_back(preview.colour);
   else
     PARTWISE_CHECK(static_cast<Eigen::Index>(body.colours.size()), ==, mesh.faces.rows());
-  surfaces_.push_back({mesh.vertices.cast<float>(), corner_normals(preview)});
+  surfaces_.push_back({mesh.vertices.cast<float>(), corner_normals(mesh, preview.crease_degrees)});
   faces_.push_back(mesh.faces);
   const Surface& surface = surfaces_.back();
   low_ = low_.cwiseMin(surface.vertices.colwise().minCoeff().transpose());

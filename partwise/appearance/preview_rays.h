@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "partwise/appearance/corner_normals.h"
 #include "partwise/appearance/preview.h"
 
 namespace partwise {
@@ -38,7 +39,7 @@ class PreviewRays {
  private:
   struct Surface {
     Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> vertices;
-    Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> corner_normals;  // three a face
+    CornerNormals corner_normals;
   };
   struct Body {                            // one Embree geometry, by its id
     std::vector<Eigen::Vector3f> colours;  // one a primitive, or one for all

@@ -1,3 +1,5 @@
+#include "partwise/appearance/camera.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -5,7 +7,6 @@
 #include <limits>
 #include <numbers>
 
-#include "partwise/appearance/preview.h"
 #include "partwise/base/error.h"
 
 namespace partwise {
@@ -27,14 +28,14 @@ struct Extent {
 
 }  // namespace
 
-PreviewCamera frame_scene(const PreviewScene& scene, const PreviewView& view, double width_over_height) {
+Camera frame_points(std::span<const RoundPoints> bodies, const CameraView& view, double width_over_height) {
   PARTWISE_CHECK(width_over_height, >, 0);
   PARTWISE_CHECK(view.fill, >, 0);
   PARTWISE_CHECK(view.fill, <=, 1);
   PARTWISE_CHECK(view.field_of_view, >=, 0);
   PARTWISE_CHECK(view.field_of_view, <, 180);
   constexpr double radians = std::numbers::pi / 180;
-  PreviewCamera camera;
+  Camera camera;
   camera.axes = (Eigen::AngleAxisd(view.azimuth * radians, Eigen::Vector3d::UnitY()) *
                  Eigen::AngleAxisd(-view.elevation * radians, Eigen::Vector3d::UnitX()))
                     .toRotationMatrix()
@@ -43,17 +44,14 @@ PreviewCamera frame_scene(const PreviewScene& scene, const PreviewView& view, do
   const double tangent = std::tan(view.field_of_view * radians / 2);  // 0 when orthographic
   Extent across(tangent * width_over_height * view.fill), up(tangent * view.fill);
   double nearest = -std::numeric_limits<double>::infinity();
-  const auto add = [&](const Vertices& points, double radius) {
-    for (Eigen::Index i = 0; i < points.rows(); ++i) {
-      const Eigen::Vector3d p = camera.axes * points.row(i).transpose();
+  for (const auto& [points, radius] : bodies) {
+    for (Eigen::Index i = 0; i < points->rows(); ++i) {
+      const Eigen::Vector3d p = camera.axes * points->row(i).transpose();
       across.add(p.x(), p.z(), radius);
       up.add(p.y(), p.z(), radius);
       nearest = std::max(nearest, p.z() + radius);
     }
-  };
-  for (const PreviewMesh& mesh : scene.meshes) add(mesh.mesh.vertices, 0);
-  for (const PreviewCurve& curve : scene.curves) add(curve.points, curve.radius);
-  for (const PreviewPoints& points : scene.points) add(points.points, points.radius);
+  }
   PARTWISE_CHECK(std::isfinite(nearest), ==, true);
 
   double back = 0;

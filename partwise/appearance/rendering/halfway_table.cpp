@@ -1,0 +1,60 @@
+#include "partwise/appearance/rendering/halfway_table.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "partwise/appearance/rendering/lobe_values.h"
+
+namespace partwise {
+namespace {
+
+constexpr double quarter = std::numbers::pi / 2;
+
+}  // namespace
+
+float HalfwayTable::knot(int place) {
+  const int near = std::min(place, places - 1 - place);
+  const float mantissa = 1 + static_cast<float>(near & ((1 << mantissa_bits) - 1)) / (1 << mantissa_bits);
+  const float m = std::min(std::ldexp(mantissa * offset, near >> mantissa_bits) - offset, 0.5f);
+  return near == place ? m : 1 - m;
+}
+
+HalfwayTable::HalfwayTable(const Dsbrdf& material) : table_(rows) {
+  constexpr int together = 8;
+  tbb::parallel_for(0, rows, [&](int i) {
+    const DsbrdfLobes lobes = material.lobes(quarter * i / (rows - 1));
+    const Eigen::Matrix3f kappa = lobes.kappa.cast<float>(), gamma = lobes.gamma.cast<float>();
+    Row& row = table_[static_cast<std::size_t>(i)];
+    row.fill(0);
+    for (int first = 0; first < places; first += together) {
+      float8::Float8 s{};
+      for (int k = 0; k < together; ++k) s[k] = knot(std::min(first + k, places - 1));
+      const LogCosines cosines(s);
+      for (int channel = 0; channel < 3; ++channel) {
+        const float8::Float8 value = lobe_sum(
+            cosines, [&](int lobe) { return kappa(channel, lobe); }, [&](int lobe) { return gamma(channel, lobe); });
+        for (int k = 0; k < std::min(together, places - first); ++k) {
+          row[static_cast<std::size_t>(4 * (first + k) + channel)] = value[k];
+        }
+      }
+    }
+  });
+}
+
+void HalfwayTable::row(double theta_d, const Eigen::Vector3f& factor, Row& result) const {
+  const double at = std::clamp(theta_d / quarter, 0.0, 1.0) * (rows - 1);
+  const int below = std::min(static_cast<int>(at), rows - 2);
+  const auto part = static_cast<float>(at - below);
+  const Row& low = table_[static_cast<std::size_t>(below)];
+  const Row& high = table_[static_cast<std::size_t>(below) + 1];
+  const float8::Float8 scale{factor[0], factor[1], factor[2], 0, factor[0], factor[1], factor[2], 0};
+  for (std::size_t i = 0; i < low.size(); i += 8) {
+    const float8::Float8 a = float8::load(low.data() + i), b = float8::load(high.data() + i);
+    float8::store(result.data() + i, scale * (a + part * (b - a)));
+  }
+}
+
+}  // namespace partwise
