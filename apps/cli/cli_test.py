@@ -278,6 +278,120 @@ class Results(CommandLine):
         self.assertEqual(*files)
 
 
+class Render(CommandLine):
+    """A unit square in two halves, seen from the front."""
+
+    def setUp(self):
+        super().setUp()
+        (self.folder / "square.off").write_text("OFF\n4 2 0\n-1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\n3 0 1 2\n3 0 2 3\n")
+        (self.folder / "halves.seg").write_text("0\n1\n")
+        self.write_scene()
+
+    def scene(self):
+        return {"meshes": [{"file": "square.off", "labels": "halves.seg", "material": [{"albedo": [0.5, 0.5, 0.5]}, "chrome"]}],
+                "light": {"name": "sky", "height": 16}, "camera": {"azimuth": 0, "elevation": 0}, "size": [40, 30], "samples": 1}
+
+    def write_scene(self, scene=None):
+        (self.folder / "scene.json").write_text(json.dumps(scene or self.scene()))
+        self.files = sorted(path.name for path in self.folder.iterdir())
+
+    def render(self, *arguments):
+        return self.run_program("render", "scene.json", *arguments)
+
+    def codes(self, name):
+        """Width, height, bits, colour type and the unpacked bytes of a PNG."""
+        data, at, packed = (self.folder / name).read_bytes(), 8, b""
+        while at < len(data):
+            length, kind = struct.unpack(">I4s", data[at:at + 8])
+            body = data[at + 8:at + 8 + length]
+            if kind == b"IHDR":
+                width, height, depth, colours = struct.unpack(">IIBB", body[:10])
+            elif kind == b"IDAT":
+                packed += body
+            at += 12 + length
+        return width, height, depth, colours, zlib.decompress(packed)
+
+    def test_every_output_is_there(self):
+        outputs = {"--exr": "a.exr", "--png": "a.png", "--normals": "n.png", "--depth": "d.exr", "--mask": "m.png",
+                   "--parts": "p.png"}
+        result = self.render("--json", "-", *(part for pair in outputs.items() for part in pair))
+        self.assert_done(result)
+        report = json.loads(result.stdout)
+        self.assertEqual((report["images"], report["parts"], report["width"], report["height"]), (1, 2, 40, 30))
+        self.assertGreater(report["images_per_second"], 0)
+        self.assertAlmostEqual(report["foreground"], 0.45, delta=0.06)
+        self.assert_files(*self.files, *outputs.values())
+        self.assertEqual(self.codes("a.png")[:4], (40, 30, 8, 2))
+        self.assertEqual(self.codes("m.png")[:4], (40, 30, 8, 0))
+        for name, colours in (("n.png", 2), ("p.png", 0)):
+            self.assertEqual(self.codes(name)[:4], (40, 30, 16, colours))
+
+    def test_the_same_bytes_for_any_number_of_threads(self):
+        made = []
+        for threads in (1, 2, 4):
+            self.assert_done(self.render("--exr", "a.exr", "--quiet", "--threads", threads))
+            made.append((self.folder / "a.exr").read_bytes())
+        self.assertEqual(made[0], made[1])
+        self.assertEqual(made[0], made[2])
+
+    def test_the_two_paths_agree_and_shadows_need_the_exact_one(self):
+        for fields in ({"path": "exact"}, {"path": "reflectance_map", "map_size": 32}, {"shadows": True}):
+            self.write_scene(self.scene() | fields)
+            self.assert_done(self.render("--exr", "a.exr", "--quiet"))
+        self.write_scene(self.scene() | {"path": "reflectance_map", "shadows": True})
+        self.assert_refused(self.render(), 1, "scene.json", "shadows", "exact")
+
+    def test_a_wrong_field_is_named(self):
+        def changed(change):
+            scene = self.scene()
+            change(scene)
+            return scene
+        cases = (
+            (lambda s: s.pop("meshes"), "meshes is missing"),
+            (lambda s: s.update(meshes=[]), "meshes is no list"),
+            (lambda s: s["meshes"][0].pop("file"), "meshes[0].file is missing"),
+            (lambda s: s["meshes"][0].update(file=""), "meshes[0].file is no text"),
+            (lambda s: s["meshes"][0].update(file="none.off"), "none.off: does not exist"),
+            (lambda s: s["meshes"][0].update(material=[]), "meshes[0].material is an empty list"),
+            (lambda s: s["meshes"][0].update(material=3), "meshes[0].material is neither"),
+            (lambda s: s["meshes"][0].update(material=["chrome", {"albedo": [1, 2, 3]}]), "meshes[0].material[1].albedo"),
+            (lambda s: s["meshes"][0].update(material="unobtainium"), "unobtainium"),
+            (lambda s: s["meshes"][0].update(components=True), "meshes[0].components and labels"),
+            (lambda s: s["meshes"][0].update(crease=181), "meshes[0].crease is not a number from 0 to 180"),
+            (lambda s: s.pop("light"), "light is missing"),
+            (lambda s: s.update(light={}), "light.name and file"),
+            (lambda s: s["light"].update(name="moon"), "moon"),
+            (lambda s: s["light"].update(height=0), "light.height is not a number from 1"),
+            (lambda s: s["light"].update(height=1.5), "light.height is not a whole number"),
+            (lambda s: s["light"].update(turns_with="wind"), "light.turns_with is neither"),
+            (lambda s: s["camera"].update(elevation="high"), "camera.elevation is not a number"),
+            (lambda s: s["camera"].update(field_of_view=20), "camera.field_of_view means nothing"),
+            (lambda s: s["camera"].update(zoom=2), "camera.zoom is not a field"),
+            (lambda s: s.update(camera=[]), "camera is not an object"),
+            (lambda s: s.update(size=[0, 3]), "size is not two whole numbers"),
+            (lambda s: s.update(samples=0), "samples is not a number from 1"),
+            (lambda s: s.update(shadows="yes"), "shadows is neither true nor false"),
+            (lambda s: s.update(path="photon_map"), "path is neither"),
+        )
+        for change, words in cases:
+            with self.subTest(words):
+                self.write_scene(changed(change))
+                self.assert_refused(self.render("--png", "a.png"), 1, words)
+                self.assert_files(*self.files)
+        (self.folder / "halves.seg").write_text("0\n")
+        self.write_scene()
+        self.assert_refused(self.render(), 1, "meshes[0].labels has 1 lines for 2 faces")
+        for text in ("", "{", "[]", "3"):
+            (self.folder / "scene.json").write_text(text)
+            self.assert_refused(self.render(), 1, "scene.json")
+
+    def test_the_example_renders(self):
+        example = NOTCH.parent / "scene.json"
+        result = self.run_program("render", example, "--normals", "n.exr", "--json", "-")
+        self.assert_done(result)
+        self.assertGreater(json.loads(result.stdout)["foreground"], 0.3)
+
+
 class Evaluate(CommandLine):
     fields = "rand_error cut_discrepancy hamming hamming_missing hamming_false consistency_global consistency_local".split()
 

@@ -22,7 +22,7 @@ namespace partwise {
 
 struct RenderMesh {
   Mesh mesh;
-  std::vector<int> parts;      // one a face, 0 or more; empty: all faces are part 0
+  std::vector<int> parts{};    // one a face, 0 or more; empty: all faces are part 0
   double crease_degrees = 40;  // 0: every face is flat; 180: all edges are smooth
 };
 

@@ -4,10 +4,12 @@
 #include <tbb/global_control.h>
 #include <Eigen/Geometry>
 
+#include <filesystem>
 #include <numbers>
 
 #include "partwise/appearance/rendering/test_scenes.h"
 #include "partwise/base/error.h"
+#include "partwise/imaging/png.h"
 
 namespace partwise {
 namespace {
@@ -46,6 +48,25 @@ TEST(GBuffer, ASpheresNormalsAndDepthsAreItsOwn) {
     }
   }
   EXPECT_NEAR(seen.foreground(), std::numbers::pi / 4 / (1.25 * 1.25), 0.01);
+}
+
+// As the file has it, right is red and up is green.
+TEST(GBuffer, ASpheresNormalsAreThoseOfTheGoldenFile) {
+  const Image golden = read_plain_png(std::filesystem::path(PARTWISE_TEST_DATA) / "data/golden/sphere_normals.png");
+  EXPECT_GT(golden.pixel(42, 24)[0], 0.9f);
+  EXPECT_GT(golden.pixel(24, 6)[1], 0.9f);
+  EXPECT_EQ(golden.pixel(24, 24)[2], 1);
+  const Image found = scene_of(test::sphere(160)).view(front(1.25), {49, 49, 1}).normal_image();
+  int compared = 0;
+  for (std::size_t i = 0; i < golden.values.size(); i += 3) {
+    const bool rim = golden.values[i + 2] > 0.5001f && golden.values[i + 2] < 0.6f;
+    for (std::size_t k = i; k < i + 3 && !rim; ++k, ++compared) {
+      const float stored = (found.values[k] + 1) / 2;
+      if (golden.values[i + 2] < 0.5001f && found.values[i + 2] != 0) continue;  // a pixel that only just misses
+      EXPECT_NEAR(stored, golden.values[k], 4e-3f) << i / 3;
+    }
+  }
+  EXPECT_GT(compared, 6000);
 }
 
 TEST(GBuffer, NormalsTurnWithTheCamera) {  // right of the picture is +x, whichever way one looks
