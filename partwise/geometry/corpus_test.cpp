@@ -7,7 +7,7 @@
 #include "partwise/base/error.h"
 #include "partwise/geometry/mesh_formats.h"
 #include "partwise/geometry/mesh_io.h"
-#include "partwise/geometry/test_corpus.h"
+#include "partwise/base/test_corpus.h"
 
 namespace partwise {
 namespace {

@@ -24,7 +24,19 @@ bool is_colour(std::size_t i, int channels) {
   return !has_alpha(channels) || static_cast<int>(i % static_cast<std::size_t>(channels)) != channels - 1;
 }
 
-png_byte code(float value) { return static_cast<png_byte>(std::lround(255 * std::clamp(value, 0.0f, 1.0f))); }
+// 8 bits, or 16 with the high byte first.
+std::vector<png_byte> samples_of(const Image& image, PngCodes codes) {
+  std::vector<png_byte> samples;
+  samples.reserve(image.values.size() * (codes == PngCodes::plain16 ? 2 : 1));
+  for (std::size_t i = 0; i < image.values.size(); ++i) {
+    const bool has_curve = codes == PngCodes::srgb && is_colour(i, image.channels);
+    const float value = std::clamp(has_curve ? srgb_from_linear(image.values[i]) : image.values[i], 0.0f, 1.0f);
+    const long code = std::lround((codes == PngCodes::plain16 ? 65535 : 255) * value);
+    if (codes == PngCodes::plain16) samples.push_back(static_cast<png_byte>(code >> 8));
+    samples.push_back(static_cast<png_byte>(code & 255));
+  }
+  return samples;
+}
 
 // libpng leaves a failing call by longjmp, which must not pass a frame that has something to destroy. So every use of
 // libpng is a body without such locals, run by guarded(): all that it fills is owned further out.
@@ -77,40 +89,7 @@ void check_size(const std::string& file, png_structp png, png_infop info, std::s
   }
 }
 
-}  // namespace
-
-std::string encode_png(const Image& image) {
-  constexpr std::array<int, 4> colour_types{PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
-                                            PNG_COLOR_TYPE_RGB_ALPHA};
-  PARTWISE_CHECK(image.channels, >=, 1);
-  PARTWISE_CHECK(image.channels, <=, 4);
-  const int colour_type = colour_types[static_cast<std::size_t>(image.channels - 1)];
-  const std::size_t row_size = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels);
-  std::vector<png_byte> codes(row_size * static_cast<std::size_t>(image.height));
-  for (std::size_t i = 0; i < codes.size(); ++i) {
-    codes[i] = code(is_colour(i, image.channels) ? srgb_from_linear(image.values[i]) : image.values[i]);
-  }
-
-  std::string bytes;
-  Writer writer;
-  const bool written = guarded(writer.png, [&] {
-    png_set_write_fn(writer.png, &bytes, append, nullptr);
-    png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height),
-                 8, colour_type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    png_set_sRGB(writer.png, writer.info, PNG_sRGB_INTENT_PERCEPTUAL);
-    png_write_info(writer.png, writer.info);
-    for (std::size_t row = 0; row < codes.size(); row += row_size) png_write_row(writer.png, codes.data() + row);
-    png_write_end(writer.png, writer.info);
-  });
-  PARTWISE_CHECK(written ? "" : writer.error, ==, std::string());
-  return bytes;
-}
-
-void write_png(const std::filesystem::path& path, const Image& image) { write_file(path, encode_png(image)); }
-
-Image read_png(const std::filesystem::path& path) { return decode_png(path.string(), read_bytes(path)); }
-
-Image decode_png(const std::string& file, std::string_view bytes) {
+Image decode_plain(const std::string& file, std::string_view bytes) {
   Reader reader;
   Image image;
   std::string_view rest = bytes;
@@ -143,8 +122,50 @@ Image decode_png(const std::string& file, std::string_view bytes) {
                      "give a file that an image viewer opens");
   }
   for (std::size_t i = 0; i < image.values.size(); ++i) {
-    const float value = static_cast<float>(samples[2 * i] * 256 + samples[2 * i + 1]) / 65535;
-    image.values[i] = is_colour(i, image.channels) ? linear_from_srgb(value) : value;
+    image.values[i] = static_cast<float>(samples[2 * i] * 256 + samples[2 * i + 1]) / 65535;
+  }
+  return image;
+}
+
+}  // namespace
+
+std::string encode_png(const Image& image, PngCodes codes) {
+  constexpr std::array<int, 4> colour_types{PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
+                                            PNG_COLOR_TYPE_RGB_ALPHA};
+  PARTWISE_CHECK(image.channels, >=, 1);
+  PARTWISE_CHECK(image.channels, <=, 4);
+  const int colour_type = colour_types[static_cast<std::size_t>(image.channels - 1)];
+  const std::vector<png_byte> samples = samples_of(image, codes);
+  const std::size_t row_size = samples.size() / static_cast<std::size_t>(image.height);
+
+  std::string bytes;
+  Writer writer;
+  const bool written = guarded(writer.png, [&] {
+    png_set_write_fn(writer.png, &bytes, append, nullptr);
+    png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height),
+                 codes == PngCodes::plain16 ? 16 : 8, colour_type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
+    if (codes == PngCodes::srgb) png_set_sRGB(writer.png, writer.info, PNG_sRGB_INTENT_PERCEPTUAL);
+    png_write_info(writer.png, writer.info);
+    for (std::size_t row = 0; row < samples.size(); row += row_size) png_write_row(writer.png, samples.data() + row);
+    png_write_end(writer.png, writer.info);
+  });
+  PARTWISE_CHECK(written ? "" : writer.error, ==, std::string());
+  return bytes;
+}
+
+void write_png(const std::filesystem::path& path, const Image& image, PngCodes codes) {
+  write_file(path, encode_png(image, codes));
+}
+
+Image read_png(const std::filesystem::path& path) { return decode_png(path.string(), read_bytes(path)); }
+
+Image read_plain_png(const std::filesystem::path& path) { return decode_plain(path.string(), read_bytes(path)); }
+
+Image decode_png(const std::string& file, std::string_view bytes) {
+  Image image = decode_plain(file, bytes);
+  for (std::size_t i = 0; i < image.values.size(); ++i) {
+    if (is_colour(i, image.channels)) image.values[i] = linear_from_srgb(image.values[i]);
   }
   return image;
 }

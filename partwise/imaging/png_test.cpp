@@ -34,6 +34,15 @@ TEST_F(Png, RoundTripIsExactInTheFilesCodes) {
   }
 }
 
+TEST_F(Png, PlainCodesHaveNoCurveAndKeepTheirBits) {
+  Image image(256, 3, 3);
+  for (std::size_t i = 0; i < image.values.size(); ++i) image.values[i] = static_cast<float>((i * 97) % 65536) / 65535;
+  write_png(folder_ / "a.png", image, PngCodes::plain16);
+  EXPECT_EQ(read_plain_png(folder_ / "a.png").values, image.values);
+  write_png(folder_ / "a.png", Image(2, 2, 1, 0.4f), PngCodes::plain8);
+  EXPECT_EQ(read_plain_png(folder_ / "a.png").values[3], 102.0f / 255);
+}
+
 TEST_F(Png, ClampsWhatTheFormatCannotHold) {
   Image image(2, 1, 1);
   image.values = {-1, 9};

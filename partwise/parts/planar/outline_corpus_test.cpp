@@ -4,7 +4,7 @@
 
 #include "partwise/base/error.h"
 #include "partwise/geometry/polygon_validity.h"
-#include "partwise/geometry/test_corpus.h"
+#include "partwise/base/test_corpus.h"
 #include "partwise/parts/planar/read_shape.h"
 
 namespace partwise {

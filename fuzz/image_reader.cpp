@@ -1,0 +1,54 @@
+// What libFuzzer calls: one reader of images of high range, chosen by PARTWISE_FUZZ_FORMAT. Whatever the bytes, the
+// outcome is an image or an InputError of one line.
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+#include "partwise/base/error.h"
+#include "partwise/imaging/exr.h"
+#include "partwise/imaging/hdr.h"
+
+namespace {
+
+using namespace partwise;
+
+constexpr std::string_view format = PARTWISE_FUZZ_FORMAT;
+
+[[noreturn]] void give_up(const char* what) {
+  std::fprintf(stderr, "%s\n", what);
+  std::abort();
+}
+
+// Images are small here: what takes time and memory is filling many pixels, not reading them.
+bool is_large_exr(std::string_view bytes) {
+  constexpr std::string_view name("dataWindow\0box2i\0", 17);
+  constexpr std::int64_t most = 1 << 20;
+  for (std::size_t at = bytes.find(name); at != std::string_view::npos; at = bytes.find(name, at + 1)) {
+    std::int32_t box[4];
+    if (at + name.size() + 4 + sizeof(box) > bytes.size()) return false;
+    std::memcpy(box, bytes.data() + at + name.size() + 4, sizeof(box));
+    const std::int64_t width = std::int64_t{box[2]} - box[0] + 1, height = std::int64_t{box[3]} - box[1] + 1;
+    if (width > most || height > most || width * height > most) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+  if (format == "exr" && is_large_exr(bytes)) return 0;
+  try {
+    const Image image = format == "exr" ? decode_exr("fuzz", bytes) : decode_hdr("fuzz", bytes);
+    const auto pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+    if (pixels == 0 || image.values.size() != pixels * static_cast<std::size_t>(image.channels))
+      give_up("an image of no size");
+  } catch (const InputError& error) {
+    if (std::string_view(error.what()).find('\n') != std::string_view::npos) give_up("a message of several lines");
+  }
+  return 0;
+}
