@@ -8,23 +8,28 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "material/ball.h"
 #include "partwise/appearance/material/dsbrdf_basis.h"
 #include "partwise/appearance/material/fit_dsbrdf.h"
 #include "partwise/appearance/material/material_files.h"
 #include "partwise/appearance/material/microfacet_brdf.h"
+#include "partwise/appearance/material/neural_brdf.h"
+#include "partwise/imaging/image_metrics.h"
 #include "tool.h"
 
 namespace {
 
 using namespace partwise;
+using namespace partwise::bench;
 namespace fs = std::filesystem;
 
 constexpr int kMostComponents = 64;
 
 struct Options {
-  std::vector<std::string> files;
+  std::vector<std::string> files, lights;
   std::string models;
 };
 
@@ -76,9 +81,30 @@ std::map<std::string, std::unique_ptr<Brdf>> models_of(const HalfAngleTable& mea
   return models;
 }
 
+// The network itself, which knows every direction, or the table's nearest bins.
+std::unique_ptr<Brdf> measured_brdf(const std::string& file) {
+  if (fs::path(file).extension() == ".h5") return std::make_unique<NeuralBrdf>(read_neural_brdf(file));
+  return std::make_unique<MerlTable>(read_merl(file));
+}
+
+// PSNR and SSIM of balls, means over the lights: exposed by the true one, gamma 2.2, over the ball.
+std::pair<double, double> rendered_error(const std::vector<Image>& truth, const std::vector<Image>& model) {
+  const Mask mask = ball_mask();
+  double psnr = 0, ssim = 0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const float exposure = exposure_by_median(truth[i], mask);
+    const ImageDifference difference = compare_images(tone_map(model[i], exposure), tone_map(truth[i], exposure), mask);
+    psnr += difference.psnr / static_cast<double>(truth.size());
+    ssim += difference.ssim.value() / static_cast<double>(truth.size());
+  }
+  return {psnr, ssim};
+}
+
 void measure(const Options& options) {
   const DsbrdfBasis basis = shipped_basis();
   const std::vector<std::string> training = training_materials();
+  std::vector<SmallLight> lights;
+  for (const std::string& file : options.lights) lights.push_back(small_light(file));
   for (const std::string& file : options.files) {
     const auto start = std::chrono::steady_clock::now();
     const HalfAngleTable measured = mean_over_phi(read_measured(file));
@@ -90,7 +116,15 @@ void measure(const Options& options) {
     line["test"] = std::ranges::count(training, fs::path(file).stem().string()) == 0;
     line["seconds_reading"] = reading;
     line["seconds_fit"] = seconds;
-    for (const auto& [name, brdf] : models) line["log_rmse"][name] = log_rmse(measured, *brdf);
+    const std::vector<Image> truth = balls(*measured_brdf(file), lights);
+    for (const auto& [name, brdf] : models) {
+      line["log_rmse"][name] = log_rmse(measured, *brdf);
+      if (!lights.empty()) {
+        const auto [psnr, ssim] = rendered_error(truth, balls(*brdf, lights));
+        line["psnr"][name] = psnr;
+        line["ssim"][name] = ssim;
+      }
+    }
     std::printf("%s\n", line.dump().c_str());
     std::fflush(stdout);
   }
@@ -103,7 +137,8 @@ int main(int argc, char** argv) {
   Options options;
   app.add_option("FILES", options.files, "Measured materials: .binary of MERL, .h5 of Neural-BRDF")->required();
   app.add_option("--models", options.models, "Write fits and the basis into this folder instead of measuring");
-  return partwise::bench::run_tool("material_errors", app, argc, argv, [&] {
+  app.add_option("--light", options.lights, "Measure balls under these maps, too (.exr, .hdr)");
+  return run_tool("material_errors", app, argc, argv, [&] {
     options.models.empty() ? measure(options) : write_models(options);
     return 0;
   });

@@ -1,5 +1,5 @@
 # Runs one fuzzed reader: the seeds of its format among the shipped files, what earlier runs kept, then new ones.
-file(GLOB seeds ${DATA}/outlines/*.${FORMAT} ${DATA}/outline_corpus/*.${FORMAT} ${DATA}/image_corpus/*.${FORMAT})
+file(GLOB seeds ${DATA}/outlines/*.${FORMAT} ${DATA}/outline_corpus/*.${FORMAT} ${DATA}/image_corpus/*.${FORMAT} ${DATA}/material_corpus/*.${FORMAT})
 file(MAKE_DIRECTORY ${FOLDER}/seeds ${FOLDER}/found)
 if(seeds)
   file(COPY ${seeds} DESTINATION ${FOLDER}/seeds)

@@ -905,6 +905,51 @@ class Retrieve(CommandLine):
             self.assertIn(word, result.stdout)
 
 
+class Material(CommandLine):
+    def write_table(self, name, values):
+        """A MERL table of one value a channel, as the eye sees it."""
+        count = 90 * 90 * 180
+        with (self.folder / name).open("wb") as out:
+            out.write(struct.pack("<3i", 90, 90, 180))
+            for value, scale in zip(values, (1, 1.15, 1.66)):
+                out.write(struct.pack("<d", 1500 * value / scale) * count)
+
+    def test_list_names_a_hundred(self):
+        result = self.run_program("material", "list", "--json", "-")
+        self.assert_done(result)
+        report = json.loads(result.stdout)
+        self.assertEqual(len(report["materials"]), 100)
+        self.assertIn("chrome", report["materials"])
+        plain = self.run_program("material", "list")
+        self.assertEqual(plain.stdout.split(), report["materials"])
+
+    def test_fit_of_a_flat_table_is_flat(self):
+        self.write_table("matte.binary", (0.2, 0.1, 0.05))
+        for threads in (1, 2):
+            result = self.run_program("material", "fit", "matte.binary", "-o", f"{threads}.json", "--threads", threads, "--json", "-")
+            self.assert_done(result)
+            report = json.loads(result.stdout)
+            self.assertLess(report["log_rmse"], 0.02)
+            self.assertEqual(report["files"], {"o": f"{threads}.json"})
+        material = json.loads((self.folder / "1.json").read_text())
+        self.assertEqual(material["name"], "matte")
+        self.assertEqual([len(material[channel]) for channel in ("red", "green", "blue")], [3, 3, 3])
+        self.assertEqual((self.folder / "1.json").read_bytes(), (self.folder / "2.json").read_bytes())
+
+    def test_what_cannot_be_fitted_is_one_line(self):
+        (self.folder / "short.binary").write_bytes(bytes(5))
+        (self.folder / "text.h5").write_text("text")
+        for name, word in (("short.binary", "too short"), ("text.h5", "no HDF5"), ("none.h5", "does not exist"), ("a.png", ".binary and .h5")):
+            self.assert_refused(self.run_program("material", "fit", name, "-o", "out.json"), 1, name, word)
+        for wrong in ([], ["fit"], ["fit", "short.binary"], ["polish"], ["fit", "short.binary", "-o", "out.png"]):
+            self.assert_refused(self.run_program("material", *wrong), 2, "material --help")
+        self.assert_files("short.binary", "text.h5")
+
+    def test_a_table_of_nothing_is_refused(self):
+        self.write_table("black.binary", (-1, -1, -1))
+        self.assert_refused(self.run_program("material", "fit", "black.binary", "-o", "out.json"), 1, "nothing was measured")
+
+
 class Outputs(CommandLine):
     def test_bad_places_are_told_before_the_work(self):
         (self.folder / "a_folder").mkdir()

@@ -1,3 +1,5 @@
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -121,6 +123,20 @@ Eigen::VectorXd start_from(const HalfAngleTable& measured, int lobes, std::size_
   return x;
 }
 
+Eigen::VectorXd with_weak_lobe(const MicrofacetBrdf& brdf, double roughness) {
+  const int lobes = static_cast<int>(brdf.lobes().size());
+  Eigen::VectorXd x(3 + 4 * (lobes + 1));
+  x.head<3>() = brdf.diffuse().array().log();
+  for (int lobe = 0; lobe < lobes; ++lobe) {
+    const MicrofacetLobe& own = brdf.lobes()[static_cast<std::size_t>(lobe)];
+    x[first_of(lobe)] = std::log(own.roughness);
+    x.segment<3>(first_of(lobe) + 1) = own.reflectance.array().log();
+  }
+  x[first_of(lobes)] = std::log(roughness);
+  x.segment<3>(first_of(lobes) + 1).setConstant(std::log(1e-3));
+  return x;
+}
+
 }  // namespace
 
 MicrofacetBrdf fit_microfacets(const HalfAngleTable& measured, LobeShape shape, int lobes) {
@@ -133,12 +149,18 @@ MicrofacetBrdf fit_microfacets(const HalfAngleTable& measured, LobeShape shape, 
     least[first_of(lobe)] = std::log(kLeastRoughness);
     largest[first_of(lobe)] = 0;
   }
-  const Problem problem(measured, shape, lobes);
-  Minimum best;
-  for (std::size_t start = 0; start < (lobes ? kRoughness.size() : 1); ++start) {
-    const Minimum found = minimise(problem, start_from(measured, lobes, start), least, largest);
-    if (best.variables.size() == 0 || found.cost < best.cost) best = found;
+  std::vector<Eigen::VectorXd> starts;
+  for (std::size_t i = 0; i < (lobes ? kRoughness.size() : 1); ++i) starts.push_back(start_from(measured, lobes, i));
+  // The best with one lobe less, and a weak one: more lobes are never worse.
+  if (lobes > 1) {
+    const MicrofacetBrdf fewer = fit_microfacets(measured, shape, lobes - 1);
+    for (const double roughness : {0.3, 0.03}) starts.push_back(with_weak_lobe(fewer, roughness));
   }
+  const Problem problem(measured, shape, lobes);
+  std::vector<Minimum> found(starts.size());
+  tbb::parallel_for(std::size_t{0}, starts.size(),
+                    [&](std::size_t i) { found[i] = minimise(problem, starts[i], least, largest); });
+  const Minimum& best = *std::ranges::min_element(found, {}, &Minimum::cost);
   const Eigen::VectorXd values = best.variables.array().exp();
   std::vector<MicrofacetLobe> result;
   for (int lobe = 0; lobe < lobes; ++lobe) {
