@@ -38,9 +38,8 @@ void refuse_utf16(const std::string& file, std::string_view bytes) {
   }
 }
 
-Mesh read(const std::filesystem::path& path, Format format) {
-  const std::string bytes = read_bytes(path);
-  const std::string file = path.string();
+Mesh read(const std::string& file, std::string_view bytes, const std::filesystem::path& folder) {
+  const Format format = format_of(file);
   if (bytes.empty()) throw InputError(file, "is empty", "export the mesh again");
   if (format != Format::glb) refuse_utf16(file, bytes);
   switch (format) {
@@ -53,9 +52,9 @@ Mesh read(const std::filesystem::path& path, Format format) {
     case Format::stl:
       return read_stl(file, bytes);
     case Format::gltf:
-      return read_gltf(file, bytes, path.parent_path());
+      return read_gltf(file, bytes, folder);
     case Format::glb:
-      return read_glb(file, bytes, path.parent_path());
+      return read_glb(file, bytes, folder);
   }
   throw CheckFailed("no reader for this format");
 }
@@ -105,16 +104,27 @@ void write(const std::filesystem::path& path, std::span<const NamedMeshView> mes
   file.commit();
 }
 
-}  // namespace
-
-Mesh read_mesh(const std::filesystem::path& path) {
-  const Format format = format_of(path);
+// Counts that no memory holds are the file's fault, not ours.
+template <typename Read>
+Mesh within_memory(const std::string& file, const Read& read) {
   try {
-    return read(path, format);
+    return read();
   } catch (const std::bad_alloc&) {
   } catch (const std::length_error&) {
   }
-  throw InputError(path.string(), "does not fit into memory", "reduce the mesh or use a machine with more memory");
+  throw InputError(file, "does not fit into memory", "reduce the mesh or use a machine with more memory");
+}
+
+}  // namespace
+
+Mesh read_mesh(const std::filesystem::path& path) {
+  format_of(path);  // before anything is read
+  return within_memory(path.string(), [&] { return read(path.string(), read_bytes(path), path.parent_path()); });
+}
+
+Mesh read_mesh(const std::string& name, std::string_view bytes) {
+  // A device has no files beside it: buffers must be inside.
+  return within_memory(name, [&] { return read(name, bytes, "/dev/null"); });
 }
 
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh) {

@@ -24,6 +24,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "partwise/geometry/mesh.h"
@@ -31,6 +32,10 @@
 namespace partwise {
 
 Mesh read_mesh(const std::filesystem::path& path);
+
+// The same from memory, for files within files: `name` is named in messages and its ending chooses the format. A glTF
+// must hold its buffers itself.
+Mesh read_mesh(const std::string& name, std::string_view bytes);
 
 // Writes OFF, OBJ, PLY (binary), STL (binary) or GLB by the ending. Atomic. OFF, OBJ and PLY hold the positions to the
 // bit (text has the shortest digits that read back as the same double), STL and GLB in single precision.

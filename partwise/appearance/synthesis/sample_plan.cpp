@@ -1,0 +1,79 @@
+#include "partwise/appearance/synthesis/sample_plan.h"
+
+#include <algorithm>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "partwise/base/error.h"
+
+namespace partwise {
+namespace {
+
+// What a random number is for.
+enum class Purpose : std::uint64_t { shape, light, turn, material, view };
+
+std::uint64_t mix(std::uint64_t x) {  // the finaliser of splitmix64 (Steele, Lea, Flood 2014)
+  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
+  x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
+  return x ^ (x >> 31);
+}
+
+class Draw {
+ public:
+  Draw(std::uint64_t seed, std::uint64_t combination, Purpose purpose)
+      : state_(mix(mix(mix(seed + kStep) + combination) + static_cast<std::uint64_t>(purpose) * kStep)) {}
+
+  double unit() { return static_cast<double>(next() >> 11) * 0x1p-53; }  // in [0, 1)
+  int below(int count) { return static_cast<int>(unit() * count); }
+
+  // `count` different numbers below `all`, in the order drawn (Fisher, Yates).
+  std::vector<int> different(int count, int all) {
+    std::vector<int> numbers(static_cast<std::size_t>(all));
+    std::iota(numbers.begin(), numbers.end(), 0);
+    for (int i = 0; i < count; ++i) std::swap(numbers[i], numbers[i + below(all - i)]);
+    numbers.resize(static_cast<std::size_t>(count));
+    return numbers;
+  }
+
+ private:
+  static constexpr std::uint64_t kStep = 0x9E3779B97F4A7C15u;
+  std::uint64_t next() { return mix(state_ += kStep); }
+  std::uint64_t state_;
+};
+
+void check(const SamplePlan& plan) {
+  for (const auto& [name, count] :
+       {std::pair{"shapes", plan.shapes}, {"materials", plan.materials}, {"lights", plan.lights}}) {
+    if (count < 1) throw InputError(name, "there are none to draw from", "name one or more");
+  }
+  if (plan.views < 1 || plan.views > plan.viewpoints) {
+    throw InputError("views", fmt::format("{} of {} viewpoints", plan.views, plan.viewpoints),
+                     "give 1 or more, at most as many as viewpoints");
+  }
+  PARTWISE_CHECK(static_cast<int>(plan.parts.size()), ==, plan.shapes);
+}
+
+}  // namespace
+
+Sample sample(const SamplePlan& plan, std::uint64_t number) {
+  check(plan);
+  const auto views = static_cast<std::uint64_t>(plan.views);
+  const std::uint64_t combination = number / views;
+  const auto draw = [&](Purpose purpose) { return Draw(plan.seed, combination, purpose); };
+  Sample result;
+  result.shape = draw(Purpose::shape).below(plan.shapes);
+  result.light = draw(Purpose::light).below(plan.lights);
+  result.light_turn = 2 * std::numbers::pi * draw(Purpose::turn).unit();
+  result.viewpoint = draw(Purpose::view).different(plan.views, plan.viewpoints)[number % views];
+  Draw material = draw(Purpose::material);
+  const int parts = plan.parts[static_cast<std::size_t>(result.shape)];
+  while (static_cast<int>(result.materials.size()) < parts) {
+    const int missing = parts - static_cast<int>(result.materials.size());
+    for (const int each : material.different(std::min(missing, plan.materials), plan.materials))
+      result.materials.push_back(each);
+  }
+  return result;
+}
+
+}  // namespace partwise
