@@ -33,7 +33,7 @@ TEST(Segmentation, CutsADumbbellAsPeopleWould) {
 
 TEST(Segmentation, TakesTheFittedPairUnlessToldOtherwise) {
   const Mesh mesh = test::dumbbell(20, 12);
-  const Segmentation fitted = segment(mesh);
+  const Segmentation fitted = segment(mesh, {.borders = Borders::plain});
   EXPECT_EQ(fitted.clusters, fitted_clusters);
   const Eigen::VectorXd in_a_ball = (face_means(mesh, mesh.vertices.col(2)).array().abs() > 0.8).cast<double>();
   EXPECT_EQ(segment_values(mesh, in_a_ball).smoothness, fitted_smoothness);
