@@ -44,6 +44,23 @@ TEST(Segmentation, TakesTheFittedPairUnlessToldOtherwise) {
   EXPECT_THROW(segment(mesh, {.clusters = -1}), InputError);
 }
 
+TEST(Segmentation, LearntBordersCutADumbbellAsPeopleWould) {
+  const Mesh mesh = test::dumbbell(60, 40);
+  const Segmentation result = segment(mesh);
+  EXPECT_EQ(result.borders, Borders::learnt);
+  EXPECT_EQ(result.parts, 3);
+  EXPECT_LT(SegmentationComparison(mesh, result.labels).against(dumbbell_parts(mesh)).rand_error, 0.05);
+  EXPECT_EQ(segment(test::sphere(1, 20)).parts, 1);
+}
+
+TEST(Segmentation, LearntBordersGoWithAveragedVisibilityAlone) {
+  const Mesh mesh = test::dumbbell(20, 12);
+  EXPECT_EQ(segment(mesh, {.feature = SurfaceFeature::shape_diameter}).borders, Borders::plain);
+  EXPECT_EQ(segment(mesh, {.smoothness = 24}).borders, Borders::plain);
+  EXPECT_THROW(segment(mesh, {.borders = Borders::learnt, .clusters = 8}), InputError);
+  EXPECT_THROW(segment(mesh, {.feature = SurfaceFeature::shape_diameter, .borders = Borders::learnt}), InputError);
+}
+
 TEST(Segmentation, AFittedSmoothnessThatLeavesAMeshWholeIsHalved) {
   // A ball with a small cap of another value, whose border costs more than it is worth.
   const Mesh mesh = test::sphere(1, 40);
