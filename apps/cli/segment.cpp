@@ -29,19 +29,25 @@ const Choices<SurfaceFeature> features = {{"cvf", SurfaceFeature::visibility},
                                           {"cvf-weak", SurfaceFeature::visibility_weak},
                                           {"sdf", SurfaceFeature::shape_diameter}};
 
+const Choices<Borders> borders = {
+    {"automatic", Borders::automatic}, {"plain", Borders::plain}, {"learnt", Borders::learnt}};
+
 void report(const Options& options, const Segmentation& result, Run& run) {
   nlohmann::ordered_json& json = run.report;
   json["parts"] = result.parts;
   json["clusters"] = result.clusters;
   json["smoothness"] = result.smoothness;
+  json["borders"] = name_of(borders, result.borders);
   json["feature"] = name_of(features, options.settings.feature);
   json["faces"] = result.labels.size();
   json["input"] = options.mesh;
   const std::string written =
       run.report_files({{"labels", options.labels}, {"glb", options.glb}, {"png", options.png}});
-  run.summary = fmt::format("{}: {} part{} by {} ({} clusters, smoothness {:.4g}){}", options.mesh, result.parts,
-                            result.parts == 1 ? "" : "s", name_of(features, options.settings.feature), result.clusters,
-                            result.smoothness, written);
+  const std::string how = result.borders == Borders::learnt
+                              ? "learnt borders"
+                              : fmt::format("{} clusters, smoothness {:.4g}", result.clusters, result.smoothness);
+  run.summary = fmt::format("{}: {} part{} by {} ({}){}", options.mesh, result.parts, result.parts == 1 ? "" : "s",
+                            name_of(features, options.settings.feature), how, written);
 }
 
 void segment_files(const Options& options, Run& run) {
@@ -74,6 +80,11 @@ Action add(CLI::App& command) {
       "cvf, "
       "cvf-strong, cvf-weak: its other kinds (see partwise feature); sdf: shape diameter, how thick the solid is")
       ->required();
+  add_choice(
+      command, "--borders", settings.borders, borders,
+      "learnt: pieces are merged across borders that people would not draw, with cvf-avg alone; plain: levels of the "
+      "feature are cut apart, by --clusters and --smoothness; automatic: learnt where it can be, unless one of "
+      "these two is given");
   add_count(command, "--clusters", settings.clusters, 1,
             "Levels of the feature that are told apart; left out: what was fitted to people's segmentations");
   add_positive(command, "--smoothness", settings.smoothness,
@@ -91,7 +102,7 @@ const Verb segment_verb = {
     .summary = "Parts of a mesh as people would cut it, from a feature of its surface",
     .details =
         "Computes a feature of the surface, clusters its values, and cuts between the clusters where the surface "
-        "bends.\n"
+        "bends;\nwith cvf-avg the pieces are then merged where people would draw no border.\n"
         "Every part is connected; one cluster may give many parts (the legs of a chair).",
     .example =
         "  partwise segment chair.off --feature cvf-avg --labels chair.seg --png chair_parts.png\n"

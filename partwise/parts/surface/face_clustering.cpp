@@ -78,16 +78,22 @@ Eigen::MatrixXd cluster_costs(const Mesh& mesh, const Eigen::MatrixXd& values, c
   return (-mixture.responsibilities(points).array().max(kLeast).log()).colwise() * sizes.array();
 }
 
+std::vector<FaceBorder> face_borders(const Mesh& mesh, double convex_factor) {
+  std::vector<FaceBorder> borders;
+  for_each_link(mesh, [&](const HalfEdge& a, const HalfEdge& b) {
+    borders.push_back({a.face, b.face, edge_length(mesh, a), bend_weight(mesh, a, b, convex_factor)});
+  });
+  return borders;
+}
+
 std::vector<LabelLink> face_links(const Mesh& mesh, const ClusteringSettings& settings) {
   const std::vector<double> areas = face_areas(mesh);
   const double unit =
       kUnitOfLength * std::sqrt(std::accumulate(areas.begin(), areas.end(), 0.0)) / static_cast<double>(areas.size());
   const bool by_length = settings.by_length && unit > 0;
   std::vector<LabelLink> links;
-  for_each_link(mesh, [&](const HalfEdge& a, const HalfEdge& b) {
-    const double length = by_length ? edge_length(mesh, a) / unit : 1;
-    links.push_back({a.face, b.face, length * bend_weight(mesh, a, b, settings.convex_factor)});
-  });
+  for (const FaceBorder& border : face_borders(mesh, settings.convex_factor))
+    links.push_back({border.a, border.b, (by_length ? border.length / unit : 1) * border.flatness});
   return links;
 }
 

@@ -56,7 +56,15 @@ FaceClustering cluster_faces(const Mesh& mesh, const Eigen::MatrixXd& values, co
 // m x k: size x -log p(cluster | face), at most -log(5e-6) each.
 Eigen::MatrixXd cluster_costs(const Mesh& mesh, const Eigen::MatrixXd& values, const ClusteringSettings& settings);
 
-// Neighbouring faces with the weight of what is between them, without smoothness.
+// Two faces that follow each other at an edge: its length in model units, and how little it looks like a border,
+// -log(t angle / pi).
+struct FaceBorder {
+  int a = 0, b = 0;
+  double length = 0, flatness = 0;
+};
+std::vector<FaceBorder> face_borders(const Mesh& mesh, double convex_factor);
+
+// The same as links with the weights above, without smoothness.
 std::vector<LabelLink> face_links(const Mesh& mesh, const ClusteringSettings& settings);
 
 // Connected pieces of equal labels, numbered by their first face.

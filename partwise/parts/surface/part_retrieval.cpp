@@ -47,7 +47,7 @@ std::vector<int> PartIndex::face_counts() const {
 }
 
 PartIndex index_parts(const Mesh& mesh, const Progress& progress) {
-  Segmentation segments = segment(mesh, {.feature = SurfaceFeature::visibility_average}, progress);
+  Segmentation segments = segment(mesh, {.borders = Borders::plain}, progress);
   PartHierarchy hierarchy = part_hierarchy(mesh, segments.labels, segments.values.col(0));
   return {std::move(hierarchy), std::move(segments.labels)};
 }

@@ -3,9 +3,12 @@
 #include <chrono>
 #include <utility>
 
+#include "partwise/base/error.h"
 #include "partwise/parts/surface/continuous_visibility.h"
 #include "partwise/parts/surface/face_clustering.h"
 #include "partwise/parts/surface/face_values.h"
+#include "partwise/parts/surface/fitted_borders.h"
+#include "partwise/parts/surface/piece_merging.h"
 #include "partwise/parts/surface/shape_diameter.h"
 
 namespace partwise {
@@ -13,6 +16,46 @@ namespace {
 
 // A fitted smoothness that leaves a mesh whole is halved, at most so often.
 constexpr int kMostHalvings = 5;
+
+// Of the pieces that learnt borders are among.
+constexpr double kPieceSmoothness = 4, kLeastPiece = 0.0005;
+
+ClusteringSettings clustering_settings(int clusters, double smoothness, std::uint64_t seed) {
+  ClusteringSettings clustering;
+  clustering.clusters = clusters;
+  clustering.smoothness = smoothness;
+  clustering.by_length = clustering.by_area = true;
+  clustering.seed = seed;
+  return clustering;
+}
+
+Borders borders_of(const SegmentationSettings& settings) {
+  const bool average = settings.feature == SurfaceFeature::visibility_average;
+  const bool told = settings.clusters != 0 || settings.smoothness >= 0;
+  if (settings.borders == Borders::learnt && (!average || told)) {
+    throw InputError("borders", "learnt ones go with averaged visibility, and without clusters or smoothness",
+                     "leave one of them out");
+  }
+  if (settings.borders != Borders::automatic) return settings.borders;
+  return average && !told ? Borders::learnt : Borders::plain;
+}
+
+Segmentation merged_pieces(const Mesh& mesh, const Eigen::MatrixXd& visibility, const Eigen::MatrixXd& thickness,
+                           std::uint64_t seed) {
+  const Components pieces = segmentation_pieces(mesh, visibility.col(0), thickness.col(0), seed);
+  const std::vector<int> part =
+      merge_pieces(PieceGraph(mesh, visibility.col(0), thickness.col(0), pieces), fitted_borders());
+  std::vector<int> labels;
+  for (const int piece : pieces.label) labels.push_back(part[piece]);
+  Components parts = label_pieces(face_adjacency(mesh), labels);
+  return {.labels = std::move(parts.label),
+          .parts = parts.count,
+          .borders = Borders::learnt,
+          .values = visibility,
+          .clusters = fitted_clusters,
+          .smoothness = kPieceSmoothness,
+          .seconds = {}};
+}
 
 }  // namespace
 
@@ -37,11 +80,9 @@ Eigen::MatrixXd feature_values(const Mesh& mesh, SurfaceFeature feature, const P
 }
 
 Segmentation segment_values(const Mesh& mesh, const Eigen::MatrixXd& values, const SegmentationSettings& settings) {
-  ClusteringSettings clustering;
-  clustering.clusters = settings.clusters == 0 ? fitted_clusters : settings.clusters;
-  clustering.smoothness = settings.smoothness < 0 ? fitted_smoothness : settings.smoothness;
-  clustering.by_length = clustering.by_area = true;
-  clustering.seed = settings.seed;
+  ClusteringSettings clustering =
+      clustering_settings(settings.clusters == 0 ? fitted_clusters : settings.clusters,
+                          settings.smoothness < 0 ? fitted_smoothness : settings.smoothness, settings.seed);
   FaceClustering found = cluster_faces(mesh, values, clustering);
   for (int i = 0; i < kMostHalvings && settings.smoothness < 0 && found.segments == 1; ++i) {
     clustering.smoothness /= 2;
@@ -49,10 +90,23 @@ Segmentation segment_values(const Mesh& mesh, const Eigen::MatrixXd& values, con
   }
   return {.labels = std::move(found.labels),
           .parts = found.segments,
+          .borders = Borders::plain,
           .values = values,
           .clusters = clustering.clusters,
           .smoothness = clustering.smoothness,
           .seconds = {}};
+}
+
+Components segmentation_pieces(const Mesh& mesh, const Eigen::VectorXd& visibility, const Eigen::VectorXd& thickness,
+                               std::uint64_t seed) {
+  ClusteringSettings clustering = clustering_settings(fitted_clusters, kPieceSmoothness, seed);
+  clustering.least_area = kLeastPiece;
+  const FaceClustering seen = cluster_faces(mesh, visibility, clustering),
+                       thick = cluster_faces(mesh, thickness, clustering);
+  std::vector<int> both;  // a piece is in one segment of each
+  for (std::size_t f = 0; f < seen.labels.size(); ++f)
+    both.push_back(seen.labels[f] * thick.segments + thick.labels[f]);
+  return join_small_pieces(mesh, label_pieces(face_adjacency(mesh), both), kLeastPiece);
 }
 
 Segmentation segment(const Mesh& mesh, const SegmentationSettings& settings, const Progress& progress) {
@@ -60,13 +114,17 @@ Segmentation segment(const Mesh& mesh, const SegmentationSettings& settings, con
   const auto seconds_since = [](Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
   };
+  const Borders borders = borders_of(settings);
   progress("feature", 0);
   auto start = Clock::now();
   const Eigen::MatrixXd values = feature_values(mesh, settings.feature, progress);
+  const Eigen::MatrixXd thickness =
+      borders == Borders::learnt ? feature_values(mesh, SurfaceFeature::shape_diameter, progress) : Eigen::MatrixXd();
   const double feature = seconds_since(start);
   progress("cluster", 0);
   start = Clock::now();
-  Segmentation result = segment_values(mesh, values, settings);
+  Segmentation result = borders == Borders::learnt ? merged_pieces(mesh, values, thickness, settings.seed)
+                                                   : segment_values(mesh, values, settings);
   result.seconds = {{"feature", feature}, {"cluster", seconds_since(start)}};
   return result;
 }

@@ -33,7 +33,7 @@ TEST(Segmentation, CutsADumbbellAsPeopleWould) {
 
 TEST(Segmentation, TakesTheFittedPairUnlessToldOtherwise) {
   const Mesh mesh = test::dumbbell(20, 12);
-  const Segmentation fitted = segment(mesh);
+  const Segmentation fitted = segment(mesh, {.borders = Borders::plain});
   EXPECT_EQ(fitted.clusters, fitted_clusters);
   const Eigen::VectorXd in_a_ball = (face_means(mesh, mesh.vertices.col(2)).array().abs() > 0.8).cast<double>();
   EXPECT_EQ(segment_values(mesh, in_a_ball).smoothness, fitted_smoothness);
@@ -42,6 +42,23 @@ TEST(Segmentation, TakesTheFittedPairUnlessToldOtherwise) {
   EXPECT_EQ(segment(mesh, {.clusters = 1}).parts, 1);
   EXPECT_EQ(segment(mesh, {.clusters = 2, .smoothness = 1e6}).parts, 1);
   EXPECT_THROW(segment(mesh, {.clusters = -1}), InputError);
+}
+
+TEST(Segmentation, LearntBordersCutADumbbellAsPeopleWould) {
+  const Mesh mesh = test::dumbbell(60, 40);
+  const Segmentation result = segment(mesh);
+  EXPECT_EQ(result.borders, Borders::learnt);
+  EXPECT_EQ(result.parts, 3);
+  EXPECT_LT(SegmentationComparison(mesh, result.labels).against(dumbbell_parts(mesh)).rand_error, 0.05);
+  EXPECT_EQ(segment(test::sphere(1, 20)).parts, 1);
+}
+
+TEST(Segmentation, LearntBordersGoWithAveragedVisibilityAlone) {
+  const Mesh mesh = test::dumbbell(20, 12);
+  EXPECT_EQ(segment(mesh, {.feature = SurfaceFeature::shape_diameter}).borders, Borders::plain);
+  EXPECT_EQ(segment(mesh, {.smoothness = 24}).borders, Borders::plain);
+  EXPECT_THROW(segment(mesh, {.borders = Borders::learnt, .clusters = 8}), InputError);
+  EXPECT_THROW(segment(mesh, {.feature = SurfaceFeature::shape_diameter, .borders = Borders::learnt}), InputError);
 }
 
 TEST(Segmentation, AFittedSmoothnessThatLeavesAMeshWholeIsHalved) {
