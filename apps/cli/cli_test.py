@@ -733,7 +733,7 @@ class Segment(CommandLine):
         self.assertRegex(result.stdout, r"^bar\.off: 3 parts by sdf \(2 clusters, smoothness [0-9.]+\)\nwrote a.seg, a.glb\n$")
         self.assert_files("bar.off", "a.seg", "a.glb", "a.json")
         report = json.loads((self.folder / "a.json").read_text())
-        self.assertEqual(list(report), "parts clusters smoothness feature faces input files seconds".split())
+        self.assertEqual(list(report), "parts clusters smoothness borders feature faces input files seconds".split())
         self.assertEqual((report["parts"], report["clusters"], report["feature"]), (3, 2, "sdf"))
         self.assertEqual(report["faces"], len(self.parts))
         for stage in ("read", "feature", "cluster", "write", "total"):

@@ -118,7 +118,7 @@ Action add(CLI::App& command) {
   const auto options = std::make_shared<Options>();
   command.add_option("QUERY", options->query, "The mesh with the part to look for")->required()->type_name("");
   add_count(command, "PART", options->part, 0,
-            "Its number, from 0, as partwise segment QUERY --feature cvf-avg --labels writes it")
+            "Its number, from 0, as partwise segment QUERY --feature cvf-avg --borders plain --labels writes it")
       ->required()
       ->type_name("");
   command.add_option("DATABASE_DIR", options->database, "A folder of meshes, searched with the folders below it")
@@ -142,17 +142,16 @@ const Verb retrieve_verb = {
     .details =
         "Finds the parts of the meshes in a folder that are most like part PART of QUERY, best first. Parts are "
         "compared\n"
-        "with what they belong to: how much of the surface each of their places sees, and so the part, the group of "
-        "parts\n"
-        "it belongs to, and the whole. 1 is the same. Scale and position do not matter. A number that does not exist "
-        "is\n"
-        "answered by those that do.\n"
+        "with what they belong to (the part, its limb, and the whole): how much of the surface their places see, how\n"
+        "thick they are, and how far out they lie. 1 is the same. Scale and position do not matter. A number that "
+        "does\n"
+        "not exist is answered by those that do.\n"
         "Each mesh is indexed once, which takes seconds; the index is kept beside the meshes and made anew when a "
         "mesh\n"
         "changes. A run that is stopped goes on where it was. Meshes that cannot be read are left out and named in "
         "--json.",
     .example =
-        "  partwise segment horse.off --feature cvf-avg --labels horse.seg --glb horse_parts.glb\n"
+        "  partwise segment horse.off --feature cvf-avg --borders plain --labels horse.seg --glb horse_parts.glb\n"
         "  partwise retrieve horse.off 3 animals/ --top 5 --json -\n"
         "  partwise retrieve horse.off 3 animals/ --others --glb matches.glb",
     .add = add,

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
-#include <utility>
+#include <tuple>
 
 #include "partwise/base/error.h"
 #include "partwise/geometry/disjoint_sets.h"
@@ -15,11 +16,13 @@
 namespace partwise {
 namespace {
 
-void require(const Mesh& mesh, std::span<const int> labels, const Eigen::VectorXd& values,
+void require(const Mesh& mesh, std::span<const int> labels, const SurfaceMeasures& measures,
              const HierarchySettings& settings) {
   require_label_per_face(mesh, labels, "labels");
-  if (values.size() != mesh.faces.rows() || !values.allFinite()) {
-    throw InputError("values", "there is not one finite number a face", "give continuous visibility of this mesh");
+  for (const Eigen::VectorXd* values : {&measures.visibility, &measures.thickness, &measures.centricity}) {
+    if (values->size() != mesh.faces.rows() || !values->allFinite()) {
+      throw InputError("measures", "there is not one finite number a face", "give measures of this mesh");
+    }
   }
   std::vector<bool> seen(labels.size() + 1, false);
   for (const int label : labels) {
@@ -32,113 +35,109 @@ void require(const Mesh& mesh, std::span<const int> labels, const Eigen::VectorX
   if (std::find(first_unused, seen.end(), true) != seen.end()) {
     throw InputError("labels", "a number below the highest is not in use", "number the parts from 0 without gaps");
   }
-  if (settings.bins < 2 || !(settings.octaves > 0)) {
+  if (settings.bins < 2 || !(settings.visibility_range > 0) || !(settings.thickness_range > 0) ||
+      !(settings.centricity_range > 0)) {
     throw InputError("settings", "a histogram needs two bins and a range", "leave them as they are");
   }
 }
 
-// Of each face, in octaves above the least that is told apart.
-Eigen::VectorXd levels_of(const Eigen::VectorXd& values, double mesh_area, double octaves) {
-  const double least = std::exp2(-octaves);
-  return (values.array() / mesh_area).max(least).min(1).log2() + octaves;
+// Where ratios lie among the bins, 0 .. bins - 1: `least` octaves are at the first bin, `least` + `range` at the last.
+Eigen::ArrayXd places(const Eigen::VectorXd& ratios, double least, double range, int bins) {
+  const Eigen::ArrayXd octaves = ratios.array().max(std::exp2(least)).min(std::exp2(least + range)).log2();
+  return ((octaves - least) / range * (bins - 1)).max(0).min(bins - 1);
 }
 
-struct PartSummary {
-  Eigen::MatrixXd histograms;
-  Eigen::VectorXd levels;  // means, octaves
-};
-
-PartSummary summary_of(const std::vector<double>& areas, std::span<const int> labels, int parts,
-                       const Eigen::VectorXd& levels, const HierarchySettings& settings) {
-  PartSummary result{Eigen::MatrixXd::Zero(parts, settings.bins), Eigen::VectorXd::Zero(parts)};
-  const double all = std::accumulate(areas.begin(), areas.end(), 0.0);
-  Eigen::VectorXd weights = Eigen::VectorXd::Zero(parts), plain = weights, counts = weights;
+// A row a part.
+Eigen::MatrixXd part_histograms(const std::vector<double>& areas, std::span<const int> labels, int parts,
+                                const SurfaceMeasures& measures, const HierarchySettings& settings) {
+  const int bins = settings.bins;
+  const double whole = std::accumulate(areas.begin(), areas.end(), 0.0);
+  const Eigen::ArrayXd centricity = places(measures.centricity, 0, settings.centricity_range, bins);
+  const Eigen::ArrayXd levels[] = {
+      places(measures.visibility / whole, -settings.visibility_range, settings.visibility_range, bins),
+      places(measures.thickness / std::sqrt(whole), -settings.thickness_range, settings.thickness_range, bins)};
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(parts, 2 * bins * bins);
   for (std::size_t f = 0; f < labels.size(); ++f) {
-    const int part = labels[f];
-    const double level = levels[static_cast<Eigen::Index>(f)];
-    const double place = level / settings.octaves * (settings.bins - 1);
-    const int bin = std::min(static_cast<int>(place), settings.bins - 2);
-    result.histograms(part, bin) += areas[f] / all * (bin + 1 - place);
-    result.histograms(part, bin + 1) += areas[f] / all * (place - bin);
-    result.levels[part] += areas[f] * level;
-    weights[part] += areas[f];
-    plain[part] += level;
-    ++counts[part];
-  }
-  for (int part = 0; part < parts; ++part) {  // parts of degenerate faces have no area
-    result.levels[part] = weights[part] > 0 ? result.levels[part] / weights[part] : plain[part] / counts[part];
+    const auto face = static_cast<Eigen::Index>(f);
+    const int out = std::min(static_cast<int>(centricity[face]), bins - 2);
+    const double farther = centricity[face] - out;
+    for (int table = 0; table < 2; ++table) {
+      const double level = levels[table][face];
+      const int bin = std::min(static_cast<int>(level), bins - 2);
+      const double higher = level - bin, share = areas[f] / whole / 2;
+      const auto add = [&](int row, int column, double part_of_it) {
+        result(labels[f], (table * bins + row) * bins + column) += share * part_of_it;
+      };
+      add(bin, out, (1 - higher) * (1 - farther));
+      add(bin, out + 1, (1 - higher) * farther);
+      add(bin + 1, out, higher * (1 - farther));
+      add(bin + 1, out + 1, higher * farther);
+    }
   }
   return result;
 }
 
-using Link = std::pair<int, int>;
-
-// Pairs of parts that share an edge, each once, ascending.
-std::vector<Link> links_of(const Mesh& mesh, std::span<const int> labels) {
+// Of each part, the parts with which it shares an edge, ascending.
+std::vector<std::vector<int>> neighbours_of(const Mesh& mesh, std::span<const int> labels, int parts) {
   const FaceAdjacency adjacency = face_adjacency(mesh);
-  std::vector<Link> links;
+  std::vector<std::vector<int>> neighbours(static_cast<std::size_t>(parts));
   for (int f = 0; f < static_cast<int>(labels.size()); ++f) {
     for (const int g : adjacency.of(f)) {
-      if (labels[f] < labels[g]) links.emplace_back(labels[f], labels[g]);
+      if (labels[f] != labels[g]) neighbours[labels[f]].push_back(labels[g]);
     }
   }
-  std::ranges::sort(links);
-  links.erase(std::unique(links.begin(), links.end()), links.end());
-  return links;
+  for (std::vector<int>& own : neighbours) {
+    std::ranges::sort(own);
+    own.erase(std::unique(own.begin(), own.end()), own.end());
+  }
+  return neighbours;
 }
 
-// Grows the tree group by group; members of a group are nodes without a parent so far.
-class TreeBuilder {
- public:
-  explicit TreeBuilder(int parts) : parents_(static_cast<std::size_t>(parts), -1), top_(parents_.size()) {
-    std::iota(top_.begin(), top_.end(), 0);
+// The outermost part first.
+std::vector<int> from_outside(std::span<const int> labels, int parts, const Eigen::VectorXd& centricity) {
+  std::vector<double> least(static_cast<std::size_t>(parts), std::numeric_limits<double>::infinity());
+  for (std::size_t f = 0; f < labels.size(); ++f) {
+    least[labels[f]] = std::min(least[labels[f]], centricity[static_cast<Eigen::Index>(f)]);
   }
+  std::vector<int> order(static_cast<std::size_t>(parts));
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order, {}, [&](int part) { return std::tuple(-least[part], -part); });
+  return order;
+}
 
-  // Parts of one set come under one node.
-  void gather(DisjointSets& sets) {
-    std::vector<std::vector<int>> members(top_.size());  // of each set, the nodes on top, by its representative
-    for (std::size_t part = 0; part < top_.size(); ++part) {
-      std::vector<int>& own = members[static_cast<std::size_t>(sets.find(static_cast<int>(part)))];
-      if (std::ranges::find(own, top_[part]) == own.end()) own.push_back(top_[part]);
+// Taking the most central part away again and again, seen backwards: parts arrive from the outside in, and each becomes
+// the middle of what it joins.
+std::vector<int> tree_of(const std::vector<std::vector<int>>& neighbours, const std::vector<int>& order) {
+  const std::size_t parts = neighbours.size();
+  std::vector<int> parents(parts, -1);
+  std::vector<int> top(parts, -1);  // of each set, by its name, the node of all of it; -1: not there yet
+  DisjointSets sets(parts);
+  const auto gather = [&](std::vector<int> children) {
+    std::ranges::sort(children);
+    children.erase(std::unique(children.begin(), children.end()), children.end());
+    if (children.size() == 1) return children.front();
+    const int node = static_cast<int>(parents.size());
+    for (const int child : children) parents[child] = node;
+    parents.push_back(-1);
+    return node;
+  };
+  for (const int part : order) {
+    std::vector<int> children = {part};
+    std::vector<int> joined;
+    for (const int other : neighbours[part]) {
+      const int limb = top[sets.find(other)];
+      if (limb < 0) continue;
+      children.push_back(limb);
+      joined.push_back(other);
     }
-    std::vector<int> new_node(parents_.size(), -1);
-    const std::size_t before = parents_.size();
-    for (std::size_t part = 0; part < top_.size(); ++part) {  // by the first part of each set
-      std::vector<int>& own = members[static_cast<std::size_t>(sets.find(static_cast<int>(part)))];
-      if (own.size() < 2) continue;
-      for (const int node : own) new_node[node] = static_cast<int>(parents_.size());
-      parents_.push_back(-1);
-      own.clear();
-    }
-    for (std::size_t node = 0; node < before; ++node) {
-      if (new_node[node] >= 0) parents_[node] = new_node[node];
-    }
-    for (int& node : top_) {
-      if (new_node[node] >= 0) node = new_node[node];
-    }
+    const int node = gather(std::move(children));
+    for (const int other : joined) sets.join(part, other);
+    top[sets.find(part)] = node;
   }
-
-  std::vector<int> take() { return std::move(parents_); }
-
- private:
-  std::vector<int> parents_;
-  std::vector<int> top_;  // of each part, the highest node above it
-};
-
-std::vector<int> tree_of(const std::vector<Link>& links, const Eigen::VectorXd& levels,
-                         const std::vector<double>& steps) {
-  const int parts = static_cast<int>(levels.size());
-  TreeBuilder tree(parts);
-  DisjointSets sets(static_cast<std::size_t>(parts));
-  for (const double step : steps) {
-    for (const auto& [a, b] : links) {
-      if (std::abs(levels[a] - levels[b]) <= step) sets.join(a, b);
-    }
-    tree.gather(sets);
-  }
-  for (int part = 1; part < parts; ++part) sets.join(0, part);
-  tree.gather(sets);
-  return tree.take();
+  std::vector<int> pieces;
+  for (std::size_t part = 0; part < parts; ++part) pieces.push_back(top[sets.find(static_cast<int>(part))]);
+  gather(std::move(pieces));
+  return parents;
 }
 
 }  // namespace
@@ -149,20 +148,20 @@ std::vector<int> PartHierarchy::root_path(int part) const {
   return path;
 }
 
-PartHierarchy part_hierarchy(const Mesh& mesh, std::span<const int> labels, const Eigen::VectorXd& values,
+PartHierarchy part_hierarchy(const Mesh& mesh, std::span<const int> labels, const SurfaceMeasures& measures,
                              const HierarchySettings& settings) {
-  require(mesh, labels, values, settings);
+  require(mesh, labels, measures, settings);
   const std::vector<double> areas = face_areas(mesh);
-  const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
-  if (!(area > 0)) throw InputError("mesh", "it has no area", "give a mesh with a face of positive area");
-  const int parts = *std::ranges::max_element(labels) + 1;
-  const PartSummary summary = summary_of(areas, labels, parts, levels_of(values, area, settings.octaves), settings);
-
+  if (!(std::accumulate(areas.begin(), areas.end(), 0.0) > 0)) {
+    throw InputError("mesh", "it has no area", "give a mesh with a face of positive area");
+  }
   PartHierarchy result;
-  result.parts = parts;
-  result.parents = tree_of(links_of(mesh, labels), summary.levels, settings.steps);
-  result.histograms = Eigen::MatrixXd::Zero(result.nodes(), settings.bins);
-  result.histograms.topRows(parts) = summary.histograms;
+  result.parts = *std::ranges::max_element(labels) + 1;
+  result.parents =
+      tree_of(neighbours_of(mesh, labels, result.parts), from_outside(labels, result.parts, measures.centricity));
+  const Eigen::MatrixXd own = part_histograms(areas, labels, result.parts, measures, settings);
+  result.histograms = Eigen::MatrixXd::Zero(result.nodes(), own.cols());
+  result.histograms.topRows(result.parts) = own;
   for (int node = 0; node + 1 < result.nodes(); ++node) {  // parents come later
     result.histograms.row(result.parents[node]) += result.histograms.row(node);
   }

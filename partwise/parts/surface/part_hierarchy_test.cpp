@@ -39,26 +39,62 @@ Eigen::VectorXd values_of(const std::vector<double>& squares) {
   return Eigen::Map<const Eigen::VectorXd>(faces.data(), static_cast<Eigen::Index>(faces.size()));
 }
 
-TEST(PartHierarchy, GroupsWhatIsWithinAStep) {
-  // Shares of the area 1/2, 1/4 (one octave apart), 1/32 (three from the second), 1/64.
-  const Mesh mesh = strip(4);
-  const PartHierarchy tree =
-      part_hierarchy(mesh, twice<int>({0, 1, 2, 3}), values_of({2, 1, 0.125, 0.0625}), {.steps = {1}});
-  EXPECT_EQ(tree.parts, 4);
-  EXPECT_EQ(tree.parents, (std::vector<int>{4, 4, 5, 5, 6, 6, -1}));
-  EXPECT_EQ(tree.root_path(2), (std::vector<int>{2, 5, 6}));
-  const PartHierarchy wide =
-      part_hierarchy(mesh, twice<int>({0, 1, 2, 3}), values_of({2, 1, 0.125, 0.0625}), {.steps = {1, 3}});
-  EXPECT_EQ(wide.parents, tree.parents);  // the second step gathers all and so is the root
+// Of each square a centricity; visibility and thickness are the same everywhere.
+SurfaceMeasures by_centricity(const std::vector<double>& squares) {
+  const Eigen::VectorXd centricity = values_of(squares);
+  return {Eigen::VectorXd::Ones(centricity.size()), Eigen::VectorXd::Ones(centricity.size()), centricity};
 }
 
-TEST(PartHierarchy, OnlyNeighboursFormGroups) {
-  const PartHierarchy tree = part_hierarchy(strip(3), twice<int>({0, 1, 2}), values_of({1, 0.01, 1}), {.steps = {1}});
-  EXPECT_EQ(tree.parents, (std::vector<int>{3, 3, 3, -1}));
+std::vector<int> parents_of(const Mesh& mesh, const std::vector<int>& squares, const std::vector<double>& centricity) {
+  return part_hierarchy(mesh, twice(squares), by_centricity(centricity)).parents;
+}
+
+// The tree by its definition: the most central part is taken away, and what hangs together without it is divided alike.
+// Gives the sets of parts that are nodes.
+void divide(std::vector<int> parts, const std::vector<double>& centricity, std::vector<std::vector<int>>& nodes) {
+  nodes.push_back(parts);
+  if (parts.size() == 1) return;
+  const auto middle = std::ranges::min_element(parts, {}, [&](int k) { return centricity[k]; });
+  const std::vector<int> limbs[] = {{*middle}, {parts.begin(), middle}, {middle + 1, parts.end()}};  // on a strip
+  for (const std::vector<int>& limb : limbs) {
+    if (!limb.empty()) divide(limb, centricity, nodes);
+  }
+}
+
+TEST(PartHierarchy, LimbsAreWhatHangsTogetherWithoutTheMiddle) {
+  // Hand, arm, body, leg, in a row.
+  EXPECT_EQ(parents_of(strip(4), {0, 1, 2, 3}, {3, 2, 1, 2}), (std::vector<int>{4, 4, 5, 5, 5, -1}));
+  const PartHierarchy tree = part_hierarchy(strip(4), twice<int>({0, 1, 2, 3}), by_centricity({3, 2, 1, 2}));
+  EXPECT_EQ(tree.root_path(0), (std::vector<int>{0, 4, 5}));
+  EXPECT_EQ(tree.root_path(3), (std::vector<int>{3, 5}));
+}
+
+TEST(PartHierarchy, AsByTakingTheMiddleAwayAgainAndAgain) {
+  const int parts = 25;
+  std::vector<int> squares(parts);
+  std::iota(squares.begin(), squares.end(), 0);
+  for (int trial = 0; trial < 20; ++trial) {
+    std::vector<double> centricity;
+    for (int i = 0; i < parts; ++i) centricity.push_back(2 + std::sin(1.7 * i * (trial + 1) + trial));
+    std::vector<std::vector<int>> expected, found;
+    divide(squares, centricity, expected);
+    const PartHierarchy tree = part_hierarchy(strip(parts), twice(squares), by_centricity(centricity));
+    found.resize(static_cast<std::size_t>(tree.nodes()));
+    for (int part = 0; part < parts; ++part) {
+      for (const int node : tree.root_path(part)) found[node].push_back(part);
+    }
+    std::ranges::sort(expected);
+    std::ranges::sort(found);
+    EXPECT_EQ(found, expected) << trial;
+  }
+}
+
+TEST(PartHierarchy, OfEquallyCentralPartsTheFirstIsTheMiddle) {
+  EXPECT_EQ(parents_of(strip(3), {0, 1, 2}, {1, 1, 1}), (std::vector<int>{4, 3, 3, 4, -1}));
 }
 
 TEST(PartHierarchy, APartThatIsAllIsTheRoot) {
-  const PartHierarchy tree = part_hierarchy(strip(2), twice<int>({0, 0}), values_of({1, 2}));
+  const PartHierarchy tree = part_hierarchy(strip(2), twice<int>({0, 0}), by_centricity({1, 2}));
   EXPECT_EQ(tree.parents, std::vector<int>{-1});
   EXPECT_EQ(tree.root_path(0), std::vector<int>{0});
   EXPECT_NEAR(tree.histograms.sum(), 1, 1e-12);
@@ -68,35 +104,46 @@ TEST(PartHierarchy, PiecesThatDoNotTouchMeetInTheRoot) {
   Mesh mesh = strip(3);
   mesh.faces.row(2).setZero();  // the square in the middle is gone
   mesh.faces.row(3).setZero();
-  const PartHierarchy tree = part_hierarchy(mesh, twice<int>({0, 1, 2}), values_of({1, 1, 1}));
+  const PartHierarchy tree = part_hierarchy(mesh, twice<int>({0, 1, 2}), by_centricity({1, 1, 1}));
   EXPECT_EQ(tree.parents, (std::vector<int>{3, 3, 3, -1}));
   EXPECT_EQ(tree.histograms.row(1).sum(), 0);
 }
 
-TEST(PartHierarchy, HistogramsAreSharesOfAreaByLevel) {
-  // One of four squares sees a quarter of the area, the others all of it: levels 8 and 10 octaves of 10.
-  const PartHierarchy tree =
-      part_hierarchy(strip(4), twice<int>({0, 1, 1, 1}), values_of({1, 4, 4, 4}), {.bins = 11, .octaves = 10});
-  Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(3, 11);
-  expected(0, 8) = expected(2, 8) = 0.25;
-  expected(1, 10) = expected(2, 10) = 0.75;
-  EXPECT_TRUE(tree.histograms.isApprox(expected, 1e-12)) << tree.histograms;
-  // A level between two bins counts for both: log2(3/4) is 0.415 below the last.
-  const PartHierarchy between =
-      part_hierarchy(strip(4), twice<int>({0, 0, 0, 0}), values_of({3, 3, 3, 3}), {.bins = 11, .octaves = 10});
-  EXPECT_NEAR(between.histograms(0, 9), -std::log2(0.75), 1e-12);
-  EXPECT_NEAR(between.histograms(0, 10), 1 + std::log2(0.75), 1e-12);
+TEST(PartHierarchy, HistogramsAreSharesOfAreaByLevels) {
+  // Four squares, area 4. Visibility 1/4 and all of the area: levels -2 and 0 octaves; thickness 1/8 and 1 of the root
+  // of the area: -3 and 0; centricity 1 and 2: 0 and 1. Half of each share goes to either table.
+  const HierarchySettings settings{.bins = 7, .visibility_range = 12, .thickness_range = 6, .centricity_range = 3};
+  const std::vector<int> labels = twice<int>({0, 1, 1, 1});
+  const SurfaceMeasures measures{values_of({1, 4, 4, 4}), values_of({0.25, 2, 2, 2}), values_of({2, 1, 1, 1})};
+  const PartHierarchy tree = part_hierarchy(strip(4), labels, measures, settings);
+  Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(3, 2 * 49);
+  expected(0, 5 * 7 + 2) = expected(2, 5 * 7 + 2) = 0.125;
+  expected(0, 49 + 3 * 7 + 2) = expected(2, 49 + 3 * 7 + 2) = 0.125;
+  expected(1, 6 * 7) = expected(2, 6 * 7) = 0.375;
+  expected(1, 49 + 6 * 7) = expected(2, 49 + 6 * 7) = 0.375;
+  EXPECT_TRUE(tree.histograms.isApprox(expected, 1e-12));
+
+  // A level between two bins counts for both: visibility 3/4 is log2(3/4) / 2 bins below the last, centricity 1 is on
+  // its bin; thickness beyond the whole counts as the whole.
+  const SurfaceMeasures between{values_of({3, 3, 3, 3}), values_of({9, 9, 9, 9}), values_of({1, 1, 1, 1})};
+  const PartHierarchy other = part_hierarchy(strip(4), twice<int>({0, 0, 0, 0}), between, settings);
+  const double below = -std::log2(0.75) / 2;
+  EXPECT_NEAR(other.histograms(0, 5 * 7), below / 2, 1e-12);
+  EXPECT_NEAR(other.histograms(0, 6 * 7), (1 - below) / 2, 1e-12);
+  EXPECT_NEAR(other.histograms(0, 49 + 6 * 7), 0.5, 1e-12);
 }
 
 TEST(PartHierarchy, ScaleAndPlaceDoNotMatter) {
   const Mesh mesh = strip(5);
   const std::vector<int> labels = twice<int>({0, 0, 1, 2, 2});
-  const Eigen::VectorXd values = values_of({3, 3.5, 0.2, 1, 2});
-  const PartHierarchy tree = part_hierarchy(mesh, labels, values);
+  const SurfaceMeasures measures{values_of({3, 3.5, 0.2, 1, 2}), values_of({1, 0.5, 0.2, 1, 2}),
+                                 values_of({2, 1.5, 1, 1.2, 1.9})};
+  const PartHierarchy tree = part_hierarchy(mesh, labels, measures);
   Mesh moved = mesh;
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
   moved.vertices = ((7 * mesh.vertices * turn.transpose()).rowwise() + Eigen::RowVector3d(4, 5, 6)).eval();
-  const PartHierarchy other = part_hierarchy(moved, labels, 49 * values);
+  const PartHierarchy other =
+      part_hierarchy(moved, labels, {49 * measures.visibility, 7 * measures.thickness, measures.centricity});
   EXPECT_EQ(other.parents, tree.parents);
   EXPECT_TRUE(other.histograms.isApprox(tree.histograms, 1e-9));
 }
@@ -105,8 +152,9 @@ TEST(PartHierarchy, ChildrenAddUpToTheirParents) {
   std::vector<int> squares(40);
   std::iota(squares.begin(), squares.end(), 0);
   std::vector<double> values;
-  for (const int i : squares) values.push_back(20 * (1.1 + std::sin(1.7 * i)));
-  const PartHierarchy tree = part_hierarchy(strip(40), twice(squares), values_of(values), {.steps = {0.25, 0.5, 1}});
+  for (const int i : squares) values.push_back(1.1 + std::sin(1.7 * i));
+  const Eigen::VectorXd each = values_of(values);
+  const PartHierarchy tree = part_hierarchy(strip(40), twice(squares), {20 * each, each, 1 + each.array()});
   ASSERT_GT(tree.nodes(), 45);
   Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(tree.nodes(), tree.histograms.cols());
   std::vector<int> children(static_cast<std::size_t>(tree.nodes()), 0);
@@ -124,13 +172,13 @@ TEST(PartHierarchy, ChildrenAddUpToTheirParents) {
 
 TEST(PartHierarchy, RefusesWhatDoesNotFit) {
   const Mesh mesh = strip(2);
-  EXPECT_THROW(part_hierarchy(mesh, std::vector<int>{0}, values_of({1, 1})), InputError);
-  EXPECT_THROW(part_hierarchy(mesh, twice<int>({0, 0}), values_of({1})), InputError);
-  EXPECT_THROW(part_hierarchy(mesh, twice<int>({0, -1}), values_of({1, 1})), InputError);
-  EXPECT_THROW(part_hierarchy(mesh, twice<int>({0, 2}), values_of({1, 1})), InputError);
+  EXPECT_THROW(part_hierarchy(mesh, std::vector<int>{0}, by_centricity({1, 1})), InputError);
+  EXPECT_THROW(part_hierarchy(mesh, twice<int>({0, 0}), by_centricity({1})), InputError);
+  EXPECT_THROW(part_hierarchy(mesh, twice<int>({0, -1}), by_centricity({1, 1})), InputError);
+  EXPECT_THROW(part_hierarchy(mesh, twice<int>({0, 2}), by_centricity({1, 1})), InputError);
   Mesh flat = mesh;
   flat.vertices.setZero();
-  EXPECT_THROW(part_hierarchy(flat, twice<int>({0, 0}), values_of({1, 1})), InputError);
+  EXPECT_THROW(part_hierarchy(flat, twice<int>({0, 0}), by_centricity({1, 1})), InputError);
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include "partwise/base/error.h"
 #include "partwise/parts/surface/maximum_matching.h"
 #include "partwise/parts/surface/segmentation.h"
+#include "partwise/parts/surface/shape_diameter.h"
+#include "partwise/parts/surface/surface_centricity.h"
 
 namespace partwise {
 namespace {
@@ -46,9 +48,14 @@ std::vector<int> PartIndex::face_counts() const {
   return counts;
 }
 
+SurfaceMeasures measure_surface(const Mesh& mesh, const Eigen::VectorXd& visibility, const Progress& progress) {
+  return {visibility, shape_diameter(mesh, {}, progress).values, surface_centricity(mesh)};
+}
+
 PartIndex index_parts(const Mesh& mesh, const Progress& progress) {
   Segmentation segments = segment(mesh, {.borders = Borders::plain}, progress);
-  PartHierarchy hierarchy = part_hierarchy(mesh, segments.labels, segments.values.col(0));
+  PartHierarchy hierarchy =
+      part_hierarchy(mesh, segments.labels, measure_surface(mesh, segments.values.col(0), progress));
   return {std::move(hierarchy), std::move(segments.labels)};
 }
 

@@ -6,9 +6,10 @@
 // similarity in [0, 1], symmetric, and 1 for a part with itself.
 //
 // The weight of two nodes is the common area of their histograms over the joint area, sum of minima over sum of maxima:
-// 1 when both show the same share of their meshes at every level of visibility. Form and size count at once.
+// 1 when both show the same share of their meshes at all levels of visibility, thickness and centricity. Form, size and
+// place on the mesh count at once.
 //
-// Meshes of any scale and position; segments are those of partwise::segment with SurfaceFeature::visibility_average,
+// Meshes of any scale and position; segments are those of partwise::segment with plain borders,
 // its fitted settings and seed 0, so that parts have the numbers that `partwise segment --feature cvf-avg` gives them.
 #pragma once
 
@@ -30,6 +31,9 @@ struct PartIndex {
 
   std::vector<int> face_counts() const;  // of each part
 };
+
+// What part_hierarchy takes; visibility as segment gives it, a face, for SurfaceFeature::visibility_average.
+SurfaceMeasures measure_surface(const Mesh& mesh, const Eigen::VectorXd& visibility, const Progress& progress = {});
 
 // Errors: InputError as of partwise::segment.
 PartIndex index_parts(const Mesh& mesh, const Progress& progress = {});

@@ -107,10 +107,10 @@ TEST(PartRetrieval, NeitherScaleNorTurnMattersToAlikeParts) {
   };
   const Mesh mesh = test::revolved(radius, height, 40, 24);
   const PartIndex index = index_parts(mesh);
-  EXPECT_EQ(index.labels, segment(mesh).labels);
+  EXPECT_EQ(index.labels, segment(mesh, {.borders = Borders::plain}).labels);
   const auto worst_similarity = [&](const Mesh& moved) {
     const Eigen::MatrixXd values = feature_values(moved, SurfaceFeature::visibility_average);
-    const PartHierarchy other = part_hierarchy(moved, index.labels, values.col(0));
+    const PartHierarchy other = part_hierarchy(moved, index.labels, measure_surface(moved, values.col(0)));
     double worst = 1;
     for (int part = 0; part < other.parts; ++part)
       worst = std::min(worst, part_similarity(index.hierarchy, part, other, part));
@@ -121,7 +121,8 @@ TEST(PartRetrieval, NeitherScaleNorTurnMattersToAlikeParts) {
   EXPECT_NEAR(worst_similarity(moved), 1, 1e-12);
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Eigen::Vector3d(3, 2, 1).normalized()).toRotationMatrix();
   moved.vertices = ((0.01 * mesh.vertices * turn.transpose()).rowwise() + Eigen::RowVector3d(1, 2, 3)).eval();
-  EXPECT_GT(worst_similarity(moved), 0.99);
+  // Many faces are equally large, so that rounding decides which are samples of the centricity.
+  EXPECT_GT(worst_similarity(moved), 0.95);
 }
 
 class PartDatabaseTest : public testing::Test {
