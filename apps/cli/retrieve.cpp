@@ -118,7 +118,7 @@ Action add(CLI::App& command) {
   const auto options = std::make_shared<Options>();
   command.add_option("QUERY", options->query, "The mesh with the part to look for")->required()->type_name("");
   add_count(command, "PART", options->part, 0,
-            "Its number, from 0, as partwise segment QUERY --feature cvf-avg --borders plain --labels writes it")
+            "Its number, from 0, as partwise segment QUERY --feature cvf-avg --labels writes it")
       ->required()
       ->type_name("");
   command.add_option("DATABASE_DIR", options->database, "A folder of meshes, searched with the folders below it")
@@ -151,7 +151,7 @@ const Verb retrieve_verb = {
         "changes. A run that is stopped goes on where it was. Meshes that cannot be read are left out and named in "
         "--json.",
     .example =
-        "  partwise segment horse.off --feature cvf-avg --borders plain --labels horse.seg --glb horse_parts.glb\n"
+        "  partwise segment horse.off --feature cvf-avg --labels horse.seg --glb horse_parts.glb\n"
         "  partwise retrieve horse.off 3 animals/ --top 5 --json -\n"
         "  partwise retrieve horse.off 3 animals/ --others --glb matches.glb",
     .add = add,

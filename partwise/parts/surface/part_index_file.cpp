@@ -12,7 +12,7 @@ namespace partwise {
 namespace {
 
 // Higher whenever an index would come out differently: segmentation, hierarchy, histograms, or this file.
-constexpr int version = 3;
+constexpr int version = 4;
 
 std::string hexadecimal(std::uint64_t content) { return fmt::format("{:016x}", content); }
 

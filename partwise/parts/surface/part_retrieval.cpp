@@ -53,7 +53,7 @@ SurfaceMeasures measure_surface(const Mesh& mesh, const Eigen::VectorXd& visibil
 }
 
 PartIndex index_parts(const Mesh& mesh, const Progress& progress) {
-  Segmentation segments = segment(mesh, {.borders = Borders::plain}, progress);
+  Segmentation segments = segment(mesh, {}, progress);
   PartHierarchy hierarchy =
       part_hierarchy(mesh, segments.labels, measure_surface(mesh, segments.values.col(0), progress));
   return {std::move(hierarchy), std::move(segments.labels)};

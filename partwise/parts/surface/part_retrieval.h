@@ -9,7 +9,7 @@
 // 1 when both show the same share of their meshes at all levels of visibility, thickness and centricity. Form, size and
 // place on the mesh count at once.
 //
-// Meshes of any scale and position; segments are those of partwise::segment with plain borders,
+// Meshes of any scale and position; segments are those of partwise::segment with
 // its fitted settings and seed 0, so that parts have the numbers that `partwise segment --feature cvf-avg` gives them.
 #pragma once
 

@@ -107,7 +107,7 @@ TEST(PartRetrieval, NeitherScaleNorTurnMattersToAlikeParts) {
   };
   const Mesh mesh = test::revolved(radius, height, 40, 24);
   const PartIndex index = index_parts(mesh);
-  EXPECT_EQ(index.labels, segment(mesh, {.borders = Borders::plain}).labels);
+  EXPECT_EQ(index.labels, segment(mesh).labels);
   const auto worst_similarity = [&](const Mesh& moved) {
     const Eigen::MatrixXd values = feature_values(moved, SurfaceFeature::visibility_average);
     const PartHierarchy other = part_hierarchy(moved, index.labels, measure_surface(moved, values.col(0)));
