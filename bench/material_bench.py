@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Models of measured materials beside each other, by log-RMSE and by pictures of balls.
 
     material_bench.py [--build build/release] [--only NAME,NAME] [--no-balls] [--lines F] [--record] DIR_OR_FILE...

@@ -2,6 +2,7 @@
 // with few principal components, and prints a JSON object a line. With --models, writes the fits and the basis.
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -11,12 +12,12 @@
 #include <utility>
 #include <vector>
 
-#include "material/ball.h"
 #include "partwise/appearance/material/dsbrdf_basis.h"
 #include "partwise/appearance/material/fit_dsbrdf.h"
 #include "partwise/appearance/material/material_files.h"
 #include "partwise/appearance/material/microfacet_brdf.h"
 #include "partwise/appearance/material/neural_brdf.h"
+#include "partwise/appearance/rendering/light_sum.h"
 #include "partwise/imaging/image_metrics.h"
 #include "tool.h"
 
@@ -27,10 +28,12 @@ using namespace partwise::bench;
 namespace fs = std::filesystem;
 
 constexpr int kMostComponents = 64;
+constexpr int kBall = 40;  // pixels a side; the ball touches the frame
 
 struct Options {
   std::vector<std::string> files, lights;
   std::string models;
+  int rows = 64;  // of the lights
 };
 
 std::vector<std::string> training_materials() {
@@ -87,9 +90,42 @@ std::unique_ptr<Brdf> measured_brdf(const std::string& file) {
   return std::make_unique<MerlTable>(read_merl(file));
 }
 
+// A ball seen along -z from afar: the pixels that show it, and their normals.
+struct Ball {
+  Mask mask = Mask(kBall, kBall, 1);
+  std::vector<std::size_t> pixels;
+  std::vector<Eigen::Vector3f> normals;
+
+  Ball() {
+    for (int y = 0; y < kBall; ++y) {
+      for (int x = 0; x < kBall; ++x) {
+        const float a = 2 * (static_cast<float>(x) + 0.5f) / kBall - 1,
+                    b = 1 - 2 * (static_cast<float>(y) + 0.5f) / kBall;
+        const float rest = 1 - a * a - b * b;
+        if (!(rest > 0)) continue;
+        *mask.pixel(x, y) = 1;
+        pixels.push_back(static_cast<std::size_t>(y * kBall + x));
+        normals.emplace_back(a, b, std::sqrt(rest));
+      }
+    }
+  }
+};
+
+// One image a light, by the exact sum.
+std::vector<Image> balls(const Ball& ball, const Brdf& material, const std::vector<LightSamples>& lights) {
+  std::vector<Image> images;
+  for (const LightSamples& light : lights) {
+    const std::vector<Eigen::Vector3f> colours = LightSum(material, light).colours(ball.normals);
+    Image& image = images.emplace_back(kBall, kBall, 3);
+    for (std::size_t i = 0; i < colours.size(); ++i)
+      std::copy_n(colours[i].data(), 3, &image.values[3 * ball.pixels[i]]);
+  }
+  return images;
+}
+
 // PSNR and SSIM of balls, means over the lights: exposed by the true one, gamma 2.2, over the ball.
-std::pair<double, double> rendered_error(const std::vector<Image>& truth, const std::vector<Image>& model) {
-  const Mask mask = ball_mask();
+std::pair<double, double> rendered_error(const Mask& mask, const std::vector<Image>& truth,
+                                         const std::vector<Image>& model) {
   double psnr = 0, ssim = 0;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const float exposure = exposure_by_median(truth[i], mask);
@@ -103,8 +139,10 @@ std::pair<double, double> rendered_error(const std::vector<Image>& truth, const 
 void measure(const Options& options) {
   const DsbrdfBasis basis = shipped_basis();
   const std::vector<std::string> training = training_materials();
-  std::vector<SmallLight> lights;
-  for (const std::string& file : options.lights) lights.push_back(small_light(file));
+  std::vector<LightSamples> lights;
+  for (const std::string& file : options.lights)
+    lights.push_back(light_samples(read_light(file).resized(2 * options.rows, options.rows)));
+  const Ball ball;
   for (const std::string& file : options.files) {
     const auto start = std::chrono::steady_clock::now();
     const HalfAngleTable measured = mean_over_phi(read_measured(file));
@@ -116,11 +154,11 @@ void measure(const Options& options) {
     line["test"] = std::ranges::count(training, fs::path(file).stem().string()) == 0;
     line["seconds_reading"] = reading;
     line["seconds_fit"] = seconds;
-    const std::vector<Image> truth = balls(*measured_brdf(file), lights);
+    const std::vector<Image> truth = balls(ball, *measured_brdf(file), lights);
     for (const auto& [name, brdf] : models) {
       line["log_rmse"][name] = log_rmse(measured, *brdf);
       if (!lights.empty()) {
-        const auto [psnr, ssim] = rendered_error(truth, balls(*brdf, lights));
+        const auto [psnr, ssim] = rendered_error(ball.mask, truth, balls(ball, *brdf, lights));
         line["psnr"][name] = psnr;
         line["ssim"][name] = ssim;
       }
@@ -138,6 +176,8 @@ int main(int argc, char** argv) {
   app.add_option("FILES", options.files, "Measured materials: .binary of MERL, .h5 of Neural-BRDF")->required();
   app.add_option("--models", options.models, "Write fits and the basis into this folder instead of measuring");
   app.add_option("--light", options.lights, "Measure balls under these maps, too (.exr, .hdr)");
+  app.add_option("--rows", options.rows, "Rows of these maps, which have twice as many columns")
+      ->check(CLI::PositiveNumber);
   return run_tool("material_errors", app, argc, argv, [&] {
     options.models.empty() ? measure(options) : write_models(options);
     return 0;

@@ -19,6 +19,7 @@
 #include "partwise/appearance/material/material_files.h"
 #include "partwise/appearance/rendering/image_formation.h"
 #include "partwise/geometry/mesh_io.h"
+#include "partwise/imaging/image_metrics.h"
 
 namespace {
 
@@ -36,15 +37,6 @@ auto timed(const Work& work, double& seconds) {
   auto result = work();
   seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
-}
-
-double difference(const Image& image, const Image& truth) {
-  double sum = 0, level = 0;
-  for (std::size_t i = 0; i < image.values.size(); ++i) {
-    sum += std::abs(static_cast<double>(image.values[i]) - static_cast<double>(truth.values[i]));
-    level += static_cast<double>(truth.values[i]);
-  }
-  return sum / level;
 }
 
 Image exact(const GBuffer& seen, const Brdf& material, const LightSamples& light) {
@@ -77,9 +69,9 @@ nlohmann::ordered_json compare(const GBuffer& seen, const std::string& light_nam
           {"pixels", pixels},
           {"normals", map->normals()},
           {"light_samples", samples},
-          {"map", difference(mapped, truth)},
-          {"map_reference", difference(mapped, reference)},
-          {"exact_reference", difference(truth, reference)},
+          {"map", relative_error(mapped, truth)},
+          {"map_reference", relative_error(mapped, reference)},
+          {"exact_reference", relative_error(truth, reference)},
           {"exact_seconds", exact_seconds},
           {"map_seconds", map_seconds},
           {"exact_ns_a_pair", 1e9 * exact_seconds / (pixels * samples)},

@@ -18,12 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string lower_ending(const fs::path& path) {
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
-
 // Absolute, without links or dots, so that equal places have equal names.
 fs::path final_place(const fs::path& path) {
   std::error_code error;
@@ -62,6 +56,12 @@ std::vector<Move> moves_into(const fs::path& staging, const fs::path& folder) {
 }
 
 }  // namespace
+
+std::string lower_ending(const fs::path& path) {
+  std::string ending = path.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
 
 Outputs::~Outputs() {
   for (const Entry& entry : entries_) {

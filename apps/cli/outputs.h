@@ -18,6 +18,9 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// The ending of a file's name in small letters, with the dot.
+std::string lower_ending(const std::filesystem::path& path);
+
 class Outputs {
  public:
   Outputs() = default;

@@ -21,11 +21,6 @@ struct Options {
   std::string scene, exr, png, normals, depth, mask, parts;
 };
 
-bool is_exr(const std::filesystem::path& path) {
-  const std::string ending = path.extension().string();
-  return ending == ".exr" || ending == ".EXR";
-}
-
 // 8 bits with the curve in the codes already.
 void write_tone_mapped(const std::filesystem::path& path, const Image& image, const Image& mask) {
   Image mapped = tone_map(image, exposure_by_median(image, mask));
@@ -34,7 +29,7 @@ void write_tone_mapped(const std::filesystem::path& path, const Image& image, co
 }
 
 void write_normals(const std::filesystem::path& path, Image normals) {
-  if (is_exr(path)) {
+  if (lower_ending(path) == ".exr") {
     const ExrLayer layer{std::move(normals), {"X", "Y", "Z"}};
     write_exr(path, {&layer, 1});
     return;

@@ -28,19 +28,25 @@ double third_moment(const Eigen::Vector3d& at) {
 
 }  // namespace
 
+SurfaceMoments surface_moments(const Mesh& mesh) {
+  const std::vector<double> areas = face_areas(mesh);
+  SurfaceMoments result;
+  result.area = std::accumulate(areas.begin(), areas.end(), 0.0);
+  if (!(result.area > 0) || !std::isfinite(result.area)) return result;
+  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f)
+    result.centroid += areas[f] / result.area * corners_of(mesh, f).colwise().mean();
+  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
+    const Corners c = corners_of(mesh, f);
+    result.second += areas[f] / result.area * second_moment(c.rowwise() - result.centroid);
+  }
+  return result;
+}
+
 Eigen::Matrix3d principal_axes(const Mesh& mesh) {
   constexpr double kUpright = 1e-12, kSkew = 1e-9;
   const std::vector<double> areas = face_areas(mesh);
-  const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
-  Point centroid = Point::Zero();
+  auto [area, centroid, moments] = surface_moments(mesh);
   if (!(area > 0) || !std::isfinite(area)) return Eigen::Matrix3d::Identity();
-  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f)
-    centroid += areas[f] / area * corners_of(mesh, f).colwise().mean();
-  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
-  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
-    const Corners c = corners_of(mesh, f);
-    moments += areas[f] / area * second_moment(c.rowwise() - centroid);
-  }
   moments = (moments.array().abs() < kUpright * moments.trace()).select(0, moments);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moments);
   Eigen::Matrix3d axes = solver.eigenvectors().rowwise().reverse().transpose();

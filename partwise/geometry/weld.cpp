@@ -3,20 +3,15 @@
 #include <cstdint>
 
 #include "partwise/base/error.h"
+#include "partwise/base/splitmix.h"
 #include "partwise/geometry/topology.h"
 
 namespace partwise {
 namespace {
 
-std::uint64_t mix(std::uint64_t x) {  // the finaliser of splitmix64 (Steele, Lea, Flood 2014)
-  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
-  x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
-  return x ^ (x >> 31);
-}
-
 std::uint64_t hash(const Point& p) {
   std::uint64_t h = 0;
-  for (const double x : p) h = mix(h + std::bit_cast<std::uint64_t>(x + 0.0) + 0x9E3779B97F4A7C15u);  // -0 + 0 is 0
+  for (const double x : p) h = splitmix(h + std::bit_cast<std::uint64_t>(x + 0.0) + splitmix_step);  // -0 + 0 is 0
   return h;
 }
 

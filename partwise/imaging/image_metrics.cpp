@@ -119,4 +119,14 @@ ImageDifference compare_images(const Image& image, const Image& truth, const Mas
   return compare(image, truth, [&](int x, int y) { return mask.pixel(x, y)[0] > 0.5f; });
 }
 
+double relative_error(const Image& image, const Image& truth) {
+  PARTWISE_CHECK(image.values.size(), ==, truth.values.size());
+  double difference = 0, level = 0;
+  for (std::size_t i = 0; i < truth.values.size(); ++i) {
+    difference += std::abs(static_cast<double>(image.values[i]) - static_cast<double>(truth.values[i]));
+    level += static_cast<double>(truth.values[i]);
+  }
+  return difference / level;
+}
+
 }  // namespace partwise

@@ -89,5 +89,12 @@ TEST(ImageMetrics, AMaskCountsItsPixelsOnly) {
   EXPECT_THROW(compare_images(a, b, Mask(12, 12, 1)), CheckFailed);
 }
 
+TEST(ImageMetrics, RelativeErrorIsOverTheTruth) {
+  Image truth(2, 1, 1, 2.0f), image = truth;
+  EXPECT_EQ(relative_error(image, truth), 0);
+  image.values = {1, 4};
+  EXPECT_EQ(relative_error(image, truth), 0.75);
+}
+
 }  // namespace
 }  // namespace partwise

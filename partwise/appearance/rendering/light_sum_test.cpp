@@ -45,7 +45,7 @@ std::vector<Eigen::Vector3f> random_normals(int count) {
 
 TEST(LightSum, ALambertianUnderAConstantSkyReflectsItsAlbedo) {  // the furnace: with albedo 1 it cannot be seen
   const LightSamples light = light_samples(EnvironmentLight(Image(128, 64, 3, 2.5f)));
-  const test::Lambert white(1);
+  const MicrofacetBrdf white = test::lambert(1);
   for (const Eigen::Vector3f& colour : LightSum(white, light).colours(random_normals(300))) {
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(colour[k], 2.5f, 2.5e-3f);
   }

@@ -9,6 +9,7 @@
 #include "partwise/appearance/rendering/image_formation.h"
 #include "partwise/appearance/rendering/test_scenes.h"
 #include "partwise/base/error.h"
+#include "partwise/imaging/image_metrics.h"
 
 namespace partwise {
 namespace {
@@ -24,15 +25,6 @@ Camera front() {
   camera.half_height = 1.3;
   camera.orthographic = true;
   return camera;
-}
-
-double mean_relative_difference(const Image& image, const Image& truth) {
-  double difference = 0, sum = 0;
-  for (std::size_t i = 0; i < image.values.size(); ++i) {
-    difference += std::abs(static_cast<double>(image.values[i]) - static_cast<double>(truth.values[i]));
-    sum += static_cast<double>(truth.values[i]);
-  }
-  return difference / sum;
 }
 
 // A lobe cos^gamma over the half-vector is as wide in light as four times its variance 1 / gamma in half-vectors: light
@@ -51,7 +43,7 @@ TEST(ReflectanceMap, MeetsTheExactSumWithinOneInAHundred) {
       const ReflectanceMap map(material, light, 64);
       const std::array sums{&sum};
       const std::array maps{&map};
-      const double difference = mean_relative_difference(mapped_image(seen, maps), exact_image(seen, sums));
+      const double difference = relative_error(mapped_image(seen, maps), exact_image(seen, sums));
       EXPECT_LT(difference, 0.01) << name << " gamma " << gamma;
     }
   }
@@ -83,7 +75,7 @@ TEST(ReflectanceMap, TexelsAreTheExactSumsOfTheirNormals) {
 
 TEST(ReflectanceMap, GoesOnSmoothlyAtTheRim) {  // as well as in the middle, for materials of any kind
   const LightSamples light = light_samples(shipped_light("park").resized(64, 32));
-  const test::Lambert lambert(0.6f);
+  const MicrofacetBrdf lambert = test::lambert(0.6);
   const Dsbrdf glossy = test::glossy(0.5, 30);
   for (const Brdf* material : {static_cast<const Brdf*>(&lambert), static_cast<const Brdf*>(&glossy)}) {
     const LightSum sum(*material, light);
@@ -123,7 +115,7 @@ TEST(ImageFormation, ALambertianSphereUnderAConstantSkyIsFlat) {
   const RenderScene scene = ball();
   const GBuffer seen = scene.view(front(), {64, 64, 1});
   const LightSamples light = light_samples(EnvironmentLight(Image(128, 64, 3, 1)));
-  const test::Lambert half(0.5f);
+  const MicrofacetBrdf half = test::lambert(0.5);
   const LightSum sum(half, light);
   const ReflectanceMap map(half, light);
   const std::array sums{&sum};
@@ -161,8 +153,8 @@ TEST(ImageFormation, RotatingTheLightIsRotatingTheScene) {
     return exact_image(turned_scene.view(camera, {40, 40, 1}), sums);
   };
   const Image all_still = picture(0, 0, 0), all_turned = picture(45, 45, 45);  // 16 columns
-  EXPECT_LT(mean_relative_difference(all_turned, all_still), 2e-3);
-  EXPECT_GT(mean_relative_difference(picture(45, 0, 0), all_still), 0.05);  // the light alone does change it
+  EXPECT_LT(relative_error(all_turned, all_still), 2e-3);
+  EXPECT_GT(relative_error(picture(45, 0, 0), all_still), 0.05);  // the light alone does change it
 }
 
 TEST(ImageFormation, PartsWearTheirMaterialsAndSamplesAreAveraged) {
@@ -171,7 +163,7 @@ TEST(ImageFormation, PartsWearTheirMaterialsAndSamplesAreAveraged) {
   Camera camera = front();
   const GBuffer seen = scene.view(camera, {26, 26, 4});
   const LightSamples light = light_samples(EnvironmentLight(Image(32, 16, 3, 1)));
-  const test::Lambert dark(0.2f), bright(0.8f);
+  const MicrofacetBrdf dark = test::lambert(0.2), bright = test::lambert(0.8);
   const LightSum dark_sum(dark, light), bright_sum(bright, light);
   const std::array sums{&dark_sum, &bright_sum};
   const Image image = exact_image(seen, sums), mask = seen.mask_image();
@@ -192,7 +184,7 @@ TEST(ImageFormation, ShadowsAreTheSkyThatIsCovered) {
   camera.orthographic = true;
   const GBuffer seen = scene.view(camera, {1, 1, 1});
   const LightSamples light = light_samples(EnvironmentLight(Image(512, 256, 3, 1)));
-  const test::Lambert white(1);
+  const MicrofacetBrdf white = test::lambert(1);
   const LightSum sum(white, light);
   const std::array sums{&sum};
   // The form factor of a square of half side a at distance 1 above a point: 4 (2 a / (2 pi sqrt(1 + a^2))) atan(a /

@@ -112,7 +112,7 @@ class SceneReader {
     if (!is_colour) own.refuse("albedo", "is not three numbers from 0 to 1", "write [red, green, blue]");
     own.refuse_others();
     const Eigen::Vector3d colour(albedo[0].get<double>(), albedo[1].get<double>(), albedo[2].get<double>());
-    return lambert(colour);
+    return std::make_shared<MicrofacetBrdf>(colour);  // without lobes, that is Lambert's
   }
 
   std::shared_ptr<const Brdf> named_material(const std::string& name) {
@@ -121,8 +121,6 @@ class SceneReader {
     if (ending == ".binary" || ending == ".h5") return std::make_shared<MerlTable>(read_measured(file(name)));
     return std::make_shared<Dsbrdf>(shipped_material(name).brdf);
   }
-
-  static std::shared_ptr<const Brdf> lambert(const Eigen::Vector3d& albedo);
 
   void read_light(const std::string& place, const json& value) {
     JsonFields fields = object(place, value);
@@ -173,10 +171,6 @@ class SceneReader {
   std::filesystem::path path_;
   SceneFile scene_;
 };
-
-std::shared_ptr<const Brdf> SceneReader::lambert(const Eigen::Vector3d& albedo) {
-  return std::make_shared<MicrofacetBrdf>(albedo);
-}
 
 template <typename Each>
 std::vector<const Each*> pointers(const std::vector<std::shared_ptr<const Each>>& owners) {

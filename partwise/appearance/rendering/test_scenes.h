@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "partwise/appearance/material/dsbrdf.h"
+#include "partwise/appearance/material/microfacet_brdf.h"
 #include "partwise/geometry/mesh.h"
 
 namespace partwise::test {
@@ -42,16 +43,7 @@ inline Mesh square(double half, double z) {
   return mesh;
 }
 
-class Lambert final : public Brdf {
- public:
-  explicit Lambert(float albedo) : value_(Eigen::Vector3f::Constant(albedo / std::numbers::pi_v<float>)) {}
-  Eigen::Vector3f operator()(const Eigen::Vector3f& to_light, const Eigen::Vector3f& to_viewer) const override {
-    return to_light.z() > 0 && to_viewer.z() > 0 ? value_ : Eigen::Vector3f::Zero();
-  }
-
- private:
-  Eigen::Vector3f value_;
-};
+inline MicrofacetBrdf lambert(double albedo) { return MicrofacetBrdf(Eigen::Vector3d::Constant(albedo)); }
 
 // The same lobes in all channels but for their strength; the sharpest has this gamma and rises towards grazing light.
 inline Dsbrdf glossy(double kappa, double gamma, double first_gamma = 0.3) {

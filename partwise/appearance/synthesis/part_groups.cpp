@@ -15,6 +15,7 @@
 
 #include "partwise/base/error.h"
 #include "partwise/geometry/disjoint_sets.h"
+#include "partwise/geometry/principal_axes.h"
 
 namespace partwise {
 namespace {
@@ -49,28 +50,11 @@ std::vector<std::vector<int>> members(const std::vector<int>& labels, int count)
 // unlike extents along the principal axes these do not jump where two axes are alike.
 using Looks = std::array<double, 4>;
 
-Looks looks(const Mesh& mesh, const std::vector<int>& faces, const std::vector<double>& areas) {
-  double area = 0;
-  Point centroid = Point::Zero();
-  const auto corner_sum = [&](int f) {
-    return Point(mesh.vertices.row(mesh.faces(f, 0)) + mesh.vertices.row(mesh.faces(f, 1)) +
-                 mesh.vertices.row(mesh.faces(f, 2)));
-  };
-  for (const int f : faces) area += areas[f], centroid += areas[f] / 3 * corner_sum(f);
-  if (!(area > 0)) return {};
-  centroid /= area;
-  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
-  for (const int f : faces) {
-    const Point sum = corner_sum(f) - 3 * centroid;
-    moments += areas[f] / (12 * area) * sum.transpose() * sum;
-    for (const int v : mesh.faces.row(f)) {
-      const Point p = mesh.vertices.row(v) - centroid;
-      moments += areas[f] / (12 * area) * p.transpose() * p;
-    }
-  }
+Looks looks(const Mesh& mesh, const std::vector<int>& faces) {
+  const SurfaceMoments moments = surface_moments({mesh.vertices, mesh.faces(faces, Eigen::all)});
   const Eigen::Vector3d principal =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments).eigenvalues().cwiseMax(0).cwiseSqrt();
-  return {std::sqrt(area), principal[2], principal[1], principal[0]};
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments.second).eigenvalues().cwiseMax(0).cwiseSqrt();
+  return {std::sqrt(moments.area), principal[2], principal[1], principal[0]};
 }
 
 // Thin directions are compared on the scale of the part, or a sheet would never be like another.
@@ -141,9 +125,8 @@ PartGroups group_parts(const Mesh& mesh, std::span<const int> part_of_face, int 
   PartGroups groups;
   int parts = 0;
   groups.of_face = numbered(part_of_face, parts);
-  const std::vector<double> areas = face_areas(mesh);
   std::vector<Looks> seen;
-  for (const std::vector<int>& faces : members(groups.of_face, parts)) seen.push_back(looks(mesh, faces, areas));
+  for (const std::vector<int>& faces : members(groups.of_face, parts)) seen.push_back(looks(mesh, faces));
   DisjointSets same(static_cast<std::size_t>(parts));
   for (int a = 0; a < parts; ++a)
     for (int b = 0; b < a; ++b)

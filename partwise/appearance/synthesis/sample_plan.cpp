@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "partwise/base/error.h"
+#include "partwise/base/splitmix.h"
 
 namespace partwise {
 namespace {
@@ -13,16 +14,11 @@ namespace {
 // What a random number is for.
 enum class Purpose : std::uint64_t { shape, light, turn, material, view };
 
-std::uint64_t mix(std::uint64_t x) {  // the finaliser of splitmix64 (Steele, Lea, Flood 2014)
-  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
-  x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
-  return x ^ (x >> 31);
-}
-
 class Draw {
  public:
   Draw(std::uint64_t seed, std::uint64_t combination, Purpose purpose)
-      : state_(mix(mix(mix(seed + kStep) + combination) + static_cast<std::uint64_t>(purpose) * kStep)) {}
+      : state_(splitmix(splitmix(splitmix(seed + splitmix_step) + combination) +
+                        static_cast<std::uint64_t>(purpose) * splitmix_step)) {}
 
   double unit() { return static_cast<double>(next() >> 11) * 0x1p-53; }  // in [0, 1)
   int below(int count) { return static_cast<int>(unit() * count); }
@@ -37,8 +33,7 @@ class Draw {
   }
 
  private:
-  static constexpr std::uint64_t kStep = 0x9E3779B97F4A7C15u;
-  std::uint64_t next() { return mix(state_ += kStep); }
+  std::uint64_t next() { return splitmix(state_ += splitmix_step); }
   std::uint64_t state_;
 };
 

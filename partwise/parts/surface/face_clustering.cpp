@@ -6,8 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <numeric>
+#include <set>
+#include <utility>
 
 #include "partwise/base/error.h"
 #include "partwise/parts/surface/face_values.h"
@@ -122,44 +125,43 @@ Components label_pieces(const FaceAdjacency& adjacency, std::span<const int> lab
 Components join_small_pieces(const Mesh& mesh, Components pieces, double least_area) {
   if (least_area <= 0) return pieces;
   const auto count = static_cast<std::size_t>(pieces.count);
-  std::vector<std::vector<std::pair<int, double>>> borders(count);  // of each piece: another, and a common length
+  std::vector<std::map<int, double>> borders(count);  // of each piece: its neighbours, and the common length
   for_each_link(mesh, [&](const HalfEdge& a, const HalfEdge& b) {
     const int p = pieces.label[a.face], q = pieces.label[b.face];
     if (p == q) return;
-    borders[p].emplace_back(q, edge_length(mesh, a));
-    borders[q].emplace_back(p, edge_length(mesh, a));
+    borders[p][q] += edge_length(mesh, a);
+    borders[q][p] += edge_length(mesh, a);
   });
   const std::vector<double> areas = face_areas(mesh);
   std::vector<double> area(count, 0.0);
   for (std::size_t f = 0; f < pieces.label.size(); ++f) area[pieces.label[f]] += areas[f];
   const double least = least_area * std::accumulate(areas.begin(), areas.end(), 0.0);
-  std::vector<int> now(count);  // the piece that each has become
-  for (std::size_t p = 0; p < count; ++p) now[p] = static_cast<int>(p);
-  std::vector<char> done(count, 0);
-  std::vector<double> common(count, 0.0);
-  for (;;) {
-    int small = -1;
-    for (std::size_t p = 0; p < count; ++p)
-      if (now[p] == static_cast<int>(p) && !done[p] && area[p] < least && (small < 0 || area[p] < area[small]))
-        small = static_cast<int>(p);
-    if (small < 0) break;
-    int target = -1;
-    for (const auto& [other, length] : borders[small])
-      if (now[other] != small) common[now[other]] += length;
-    for (const auto& [other, length] : borders[small]) {
-      const int q = now[other];
-      if (q != small && (target < 0 || common[q] > common[target] || (common[q] == common[target] && q < target)))
-        target = q;
+  std::set<std::pair<double, int>> small;  // with their areas, those that have a neighbour to join
+  for (int p = 0; p < pieces.count; ++p)
+    if (area[p] < least && !borders[p].empty()) small.emplace(area[p], p);
+  std::vector<int> joined(count);  // of each piece the one that it joined, or itself
+  std::iota(joined.begin(), joined.end(), 0);
+  while (!small.empty()) {
+    const int p = small.begin()->second;
+    small.erase(small.begin());
+    if (borders[p].empty()) continue;  // all of its component by now
+    const int target = std::ranges::max_element(borders[p], {}, [](const auto& each) { return each.second; })->first;
+    small.erase({area[target], target});
+    area[target] += area[p];
+    if (area[target] < least) small.emplace(area[target], target);
+    for (const auto& [other, length] : borders[p]) {
+      borders[other].erase(p);
+      if (other == target) continue;
+      borders[target][other] += length;
+      borders[other][target] += length;
     }
-    for (const auto& [other, length] : borders[small]) common[now[other]] = 0;
-    done[small] = 1;
-    if (target < 0) continue;
-    area[target] += area[small];
-    borders[target].insert(borders[target].end(), borders[small].begin(), borders[small].end());
-    for (int& p : now)
-      if (p == small) p = target;
+    joined[p] = target;
   }
-  for (int& label : pieces.label) label = now[label];
+  const auto last = [&](int p) {
+    while (joined[p] != p) p = joined[p] = joined[joined[p]];
+    return p;
+  };
+  for (int& label : pieces.label) label = last(label);
   return label_pieces(face_adjacency(mesh), pieces.label);
 }
 

@@ -8,23 +8,10 @@
 #include <numeric>
 
 #include "partwise/base/error.h"
+#include "partwise/parts/surface/test_surfaces.h"
 
 namespace partwise {
 namespace {
-
-// A strip of `squares` unit squares along x, two faces each.
-Mesh strip(int squares) {
-  Mesh mesh{Vertices(2 * squares + 2, 3), Faces(2 * squares, 3)};
-  for (int i = 0; i <= squares; ++i) {
-    mesh.vertices.row(2 * i) << i, 0, 0;
-    mesh.vertices.row(2 * i + 1) << i, 1, 0;
-  }
-  for (int i = 0; i < squares; ++i) {
-    mesh.faces.row(2 * i) << 2 * i, 2 * i + 2, 2 * i + 3;
-    mesh.faces.row(2 * i + 1) << 2 * i, 2 * i + 3, 2 * i + 1;
-  }
-  return mesh;
-}
 
 // Of each face, what its square has.
 template <typename Value>
@@ -63,8 +50,8 @@ void divide(std::vector<int> parts, const std::vector<double>& centricity, std::
 
 TEST(PartHierarchy, LimbsAreWhatHangsTogetherWithoutTheMiddle) {
   // Hand, arm, body, leg, in a row.
-  EXPECT_EQ(parents_of(strip(4), {0, 1, 2, 3}, {3, 2, 1, 2}), (std::vector<int>{4, 4, 5, 5, 5, -1}));
-  const PartHierarchy tree = part_hierarchy(strip(4), twice<int>({0, 1, 2, 3}), by_centricity({3, 2, 1, 2}));
+  EXPECT_EQ(parents_of(test::strip(4), {0, 1, 2, 3}, {3, 2, 1, 2}), (std::vector<int>{4, 4, 5, 5, 5, -1}));
+  const PartHierarchy tree = part_hierarchy(test::strip(4), twice<int>({0, 1, 2, 3}), by_centricity({3, 2, 1, 2}));
   EXPECT_EQ(tree.root_path(0), (std::vector<int>{0, 4, 5}));
   EXPECT_EQ(tree.root_path(3), (std::vector<int>{3, 5}));
 }
@@ -78,7 +65,7 @@ TEST(PartHierarchy, AsByTakingTheMiddleAwayAgainAndAgain) {
     for (int i = 0; i < parts; ++i) centricity.push_back(2 + std::sin(1.7 * i * (trial + 1) + trial));
     std::vector<std::vector<int>> expected, found;
     divide(squares, centricity, expected);
-    const PartHierarchy tree = part_hierarchy(strip(parts), twice(squares), by_centricity(centricity));
+    const PartHierarchy tree = part_hierarchy(test::strip(parts), twice(squares), by_centricity(centricity));
     found.resize(static_cast<std::size_t>(tree.nodes()));
     for (int part = 0; part < parts; ++part) {
       for (const int node : tree.root_path(part)) found[node].push_back(part);
@@ -90,18 +77,18 @@ TEST(PartHierarchy, AsByTakingTheMiddleAwayAgainAndAgain) {
 }
 
 TEST(PartHierarchy, OfEquallyCentralPartsTheFirstIsTheMiddle) {
-  EXPECT_EQ(parents_of(strip(3), {0, 1, 2}, {1, 1, 1}), (std::vector<int>{4, 3, 3, 4, -1}));
+  EXPECT_EQ(parents_of(test::strip(3), {0, 1, 2}, {1, 1, 1}), (std::vector<int>{4, 3, 3, 4, -1}));
 }
 
 TEST(PartHierarchy, APartThatIsAllIsTheRoot) {
-  const PartHierarchy tree = part_hierarchy(strip(2), twice<int>({0, 0}), by_centricity({1, 2}));
+  const PartHierarchy tree = part_hierarchy(test::strip(2), twice<int>({0, 0}), by_centricity({1, 2}));
   EXPECT_EQ(tree.parents, std::vector<int>{-1});
   EXPECT_EQ(tree.root_path(0), std::vector<int>{0});
   EXPECT_NEAR(tree.histograms.sum(), 1, 1e-12);
 }
 
 TEST(PartHierarchy, PiecesThatDoNotTouchMeetInTheRoot) {
-  Mesh mesh = strip(3);
+  Mesh mesh = test::strip(3);
   mesh.faces.row(2).setZero();  // the square in the middle is gone
   mesh.faces.row(3).setZero();
   const PartHierarchy tree = part_hierarchy(mesh, twice<int>({0, 1, 2}), by_centricity({1, 1, 1}));
@@ -115,7 +102,7 @@ TEST(PartHierarchy, HistogramsAreSharesOfAreaByLevels) {
   const HierarchySettings settings{.bins = 7, .visibility_range = 12, .thickness_range = 6, .centricity_range = 3};
   const std::vector<int> labels = twice<int>({0, 1, 1, 1});
   const SurfaceMeasures measures{values_of({1, 4, 4, 4}), values_of({0.25, 2, 2, 2}), values_of({2, 1, 1, 1})};
-  const PartHierarchy tree = part_hierarchy(strip(4), labels, measures, settings);
+  const PartHierarchy tree = part_hierarchy(test::strip(4), labels, measures, settings);
   Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(3, 2 * 49);
   expected(0, 5 * 7 + 2) = expected(2, 5 * 7 + 2) = 0.125;
   expected(0, 49 + 3 * 7 + 2) = expected(2, 49 + 3 * 7 + 2) = 0.125;
@@ -126,7 +113,7 @@ TEST(PartHierarchy, HistogramsAreSharesOfAreaByLevels) {
   // A level between two bins counts for both: visibility 3/4 is log2(3/4) / 2 bins below the last, centricity 1 is on
   // its bin; thickness beyond the whole counts as the whole.
   const SurfaceMeasures between{values_of({3, 3, 3, 3}), values_of({9, 9, 9, 9}), values_of({1, 1, 1, 1})};
-  const PartHierarchy other = part_hierarchy(strip(4), twice<int>({0, 0, 0, 0}), between, settings);
+  const PartHierarchy other = part_hierarchy(test::strip(4), twice<int>({0, 0, 0, 0}), between, settings);
   const double below = -std::log2(0.75) / 2;
   EXPECT_NEAR(other.histograms(0, 5 * 7), below / 2, 1e-12);
   EXPECT_NEAR(other.histograms(0, 6 * 7), (1 - below) / 2, 1e-12);
@@ -134,7 +121,7 @@ TEST(PartHierarchy, HistogramsAreSharesOfAreaByLevels) {
 }
 
 TEST(PartHierarchy, ScaleAndPlaceDoNotMatter) {
-  const Mesh mesh = strip(5);
+  const Mesh mesh = test::strip(5);
   const std::vector<int> labels = twice<int>({0, 0, 1, 2, 2});
   const SurfaceMeasures measures{values_of({3, 3.5, 0.2, 1, 2}), values_of({1, 0.5, 0.2, 1, 2}),
                                  values_of({2, 1.5, 1, 1.2, 1.9})};
@@ -154,7 +141,7 @@ TEST(PartHierarchy, ChildrenAddUpToTheirParents) {
   std::vector<double> values;
   for (const int i : squares) values.push_back(1.1 + std::sin(1.7 * i));
   const Eigen::VectorXd each = values_of(values);
-  const PartHierarchy tree = part_hierarchy(strip(40), twice(squares), {20 * each, each, 1 + each.array()});
+  const PartHierarchy tree = part_hierarchy(test::strip(40), twice(squares), {20 * each, each, 1 + each.array()});
   ASSERT_GT(tree.nodes(), 45);
   Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(tree.nodes(), tree.histograms.cols());
   std::vector<int> children(static_cast<std::size_t>(tree.nodes()), 0);
@@ -171,7 +158,7 @@ TEST(PartHierarchy, ChildrenAddUpToTheirParents) {
 }
 
 TEST(PartHierarchy, RefusesWhatDoesNotFit) {
-  const Mesh mesh = strip(2);
+  const Mesh mesh = test::strip(2);
   EXPECT_THROW(part_hierarchy(mesh, std::vector<int>{0}, by_centricity({1, 1})), InputError);
   EXPECT_THROW(part_hierarchy(mesh, twice<int>({0, 0}), by_centricity({1})), InputError);
   EXPECT_THROW(part_hierarchy(mesh, twice<int>({0, -1}), by_centricity({1, 1})), InputError);

@@ -8,7 +8,6 @@
 #include "partwise/base/error.h"
 #include "partwise/parts/surface/maximum_matching.h"
 #include "partwise/parts/surface/segmentation.h"
-#include "partwise/parts/surface/shape_diameter.h"
 #include "partwise/parts/surface/surface_centricity.h"
 
 namespace partwise {
@@ -48,14 +47,11 @@ std::vector<int> PartIndex::face_counts() const {
   return counts;
 }
 
-SurfaceMeasures measure_surface(const Mesh& mesh, const Eigen::VectorXd& visibility, const Progress& progress) {
-  return {visibility, shape_diameter(mesh, {}, progress).values, surface_centricity(mesh)};
-}
-
 PartIndex index_parts(const Mesh& mesh, const Progress& progress) {
-  Segmentation segments = segment(mesh, {}, progress);
+  Segmentation segments = segment(mesh, {}, progress);  // with learnt borders: its values are visibility and thickness
+  PARTWISE_CHECK(segments.values.cols(), ==, 2);
   PartHierarchy hierarchy =
-      part_hierarchy(mesh, segments.labels, measure_surface(mesh, segments.values.col(0), progress));
+      part_hierarchy(mesh, segments.labels, {segments.values.col(0), segments.values.col(1), surface_centricity(mesh)});
   return {std::move(hierarchy), std::move(segments.labels)};
 }
 

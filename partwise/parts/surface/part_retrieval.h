@@ -9,8 +9,8 @@
 // 1 when both show the same share of their meshes at all levels of visibility, thickness and centricity. Form, size and
 // place on the mesh count at once.
 //
-// Meshes of any scale and position; segments are those of partwise::segment with
-// its fitted settings and seed 0, so that parts have the numbers that `partwise segment --feature cvf-avg` gives them.
+// Meshes of any scale and position; segments are those of partwise::segment with its defaults and seed 0, so that parts
+// have the numbers that `partwise segment --feature cvf-avg` gives them.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,9 +31,6 @@ struct PartIndex {
 
   std::vector<int> face_counts() const;  // of each part
 };
-
-// What part_hierarchy takes; visibility as segment gives it, a face, for SurfaceFeature::visibility_average.
-SurfaceMeasures measure_surface(const Mesh& mesh, const Eigen::VectorXd& visibility, const Progress& progress = {});
 
 // Errors: InputError as of partwise::segment.
 PartIndex index_parts(const Mesh& mesh, const Progress& progress = {});

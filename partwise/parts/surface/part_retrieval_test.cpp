@@ -14,6 +14,7 @@
 #include "partwise/geometry/mesh_io.h"
 #include "partwise/parts/surface/part_database.h"
 #include "partwise/parts/surface/segmentation.h"
+#include "partwise/parts/surface/surface_centricity.h"
 #include "partwise/parts/surface/test_surfaces.h"
 
 namespace partwise {
@@ -109,8 +110,10 @@ TEST(PartRetrieval, NeitherScaleNorTurnMattersToAlikeParts) {
   const PartIndex index = index_parts(mesh);
   EXPECT_EQ(index.labels, segment(mesh).labels);
   const auto worst_similarity = [&](const Mesh& moved) {
-    const Eigen::MatrixXd values = feature_values(moved, SurfaceFeature::visibility_average);
-    const PartHierarchy other = part_hierarchy(moved, index.labels, measure_surface(moved, values.col(0)));
+    const PartHierarchy other =
+        part_hierarchy(moved, index.labels,
+                       {feature_values(moved, SurfaceFeature::visibility_average).col(0),
+                        feature_values(moved, SurfaceFeature::shape_diameter).col(0), surface_centricity(moved)});
     double worst = 1;
     for (int part = 0; part < other.parts; ++part)
       worst = std::min(worst, part_similarity(index.hierarchy, part, other, part));

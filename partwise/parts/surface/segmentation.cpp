@@ -1,6 +1,7 @@
 #include "partwise/parts/surface/segmentation.h"
 
 #include <chrono>
+#include <map>
 #include <utility>
 
 #include "partwise/base/error.h"
@@ -40,18 +41,17 @@ Borders borders_of(const SegmentationSettings& settings) {
   return average && !told ? Borders::learnt : Borders::plain;
 }
 
-Segmentation merged_pieces(const Mesh& mesh, const Eigen::MatrixXd& visibility, const Eigen::MatrixXd& thickness,
-                           std::uint64_t seed) {
-  const Components pieces = segmentation_pieces(mesh, visibility.col(0), thickness.col(0), seed);
-  const std::vector<int> part =
-      merge_pieces(PieceGraph(mesh, visibility.col(0), thickness.col(0), pieces), fitted_borders());
+// values: visibility and thickness.
+Segmentation merged_pieces(const Mesh& mesh, const Eigen::MatrixXd& values, std::uint64_t seed) {
+  const Components pieces = segmentation_pieces(mesh, values.col(0), values.col(1), seed);
+  const std::vector<int> part = merge_pieces(PieceGraph(mesh, values.col(0), values.col(1), pieces), fitted_borders());
   std::vector<int> labels;
   for (const int piece : pieces.label) labels.push_back(part[piece]);
   Components parts = label_pieces(face_adjacency(mesh), labels);
   return {.labels = std::move(parts.label),
           .parts = parts.count,
           .borders = Borders::learnt,
-          .values = visibility,
+          .values = values,
           .clusters = fitted_clusters,
           .smoothness = kPieceSmoothness,
           .seconds = {}};
@@ -103,9 +103,10 @@ Components segmentation_pieces(const Mesh& mesh, const Eigen::VectorXd& visibili
   clustering.least_area = kLeastPiece;
   const FaceClustering seen = cluster_faces(mesh, visibility, clustering),
                        thick = cluster_faces(mesh, thickness, clustering);
-  std::vector<int> both;  // a piece is in one segment of each
+  std::map<std::pair<int, int>, int> numbers;  // a piece is in one segment of each
+  std::vector<int> both;
   for (std::size_t f = 0; f < seen.labels.size(); ++f)
-    both.push_back(seen.labels[f] * thick.segments + thick.labels[f]);
+    both.push_back(numbers.try_emplace({seen.labels[f], thick.labels[f]}, static_cast<int>(f)).first->second);
   return join_small_pieces(mesh, label_pieces(face_adjacency(mesh), both), kLeastPiece);
 }
 
@@ -117,14 +118,16 @@ Segmentation segment(const Mesh& mesh, const SegmentationSettings& settings, con
   const Borders borders = borders_of(settings);
   progress("feature", 0);
   auto start = Clock::now();
-  const Eigen::MatrixXd values = feature_values(mesh, settings.feature, progress);
-  const Eigen::MatrixXd thickness =
-      borders == Borders::learnt ? feature_values(mesh, SurfaceFeature::shape_diameter, progress) : Eigen::MatrixXd();
+  Eigen::MatrixXd values = feature_values(mesh, settings.feature, progress);
+  if (borders == Borders::learnt) {
+    values.conservativeResize(Eigen::NoChange, 2);
+    values.col(1) = feature_values(mesh, SurfaceFeature::shape_diameter, progress);
+  }
   const double feature = seconds_since(start);
   progress("cluster", 0);
   start = Clock::now();
-  Segmentation result = borders == Borders::learnt ? merged_pieces(mesh, values, thickness, settings.seed)
-                                                   : segment_values(mesh, values, settings);
+  Segmentation result =
+      borders == Borders::learnt ? merged_pieces(mesh, values, settings.seed) : segment_values(mesh, values, settings);
   result.seconds = {{"feature", feature}, {"cluster", seconds_since(start)}};
   return result;
 }

@@ -55,7 +55,7 @@ struct Segmentation {
   std::vector<int> labels;  // a face, 0 .. parts - 1; each part is connected, numbered by its first face
   int parts = 0;
   Borders borders = Borders::plain;  // plain or learnt
-  Eigen::MatrixXd values;            // of the feature, a row a face, as they were clustered
+  Eigen::MatrixXd values;            // of the feature, a row a face, as they were clustered; learnt: and thickness
   int clusters = 0;                  // the settings in use
   double smoothness = 0;
   std::vector<std::pair<std::string, double>> seconds;  // by stage, wall time

@@ -53,6 +53,17 @@ TEST(Segmentation, LearntBordersCutADumbbellAsPeopleWould) {
   EXPECT_EQ(segment(test::sphere(1, 20)).parts, 1);
 }
 
+TEST(Segmentation, ManyComponentsArePiecesEach) {
+  const int count = 60000;  // whose square no int holds
+  Mesh mesh{Vertices(3 * count, 3), Faces(count, 3)};
+  for (int f = 0; f < count; ++f) {
+    mesh.vertices.middleRows<3>(3 * f) << f, 0, 0, f + 0.5, 0, 0, f, 0.5, 0;
+    mesh.faces.row(f) << 3 * f, 3 * f + 1, 3 * f + 2;
+  }
+  const Eigen::VectorXd values = Eigen::VectorXd::Ones(count);
+  EXPECT_EQ(segmentation_pieces(mesh, values, values).count, count);
+}
+
 TEST(Segmentation, LearntBordersGoWithAveragedVisibilityAlone) {
   const Mesh mesh = test::dumbbell(20, 12);
   EXPECT_EQ(segment(mesh, {.feature = SurfaceFeature::shape_diameter}).borders, Borders::plain);

@@ -12,31 +12,17 @@
 namespace partwise {
 namespace {
 
-// A ribbon of `squares` unit squares along x, two faces each.
-Mesh ribbon(int squares) {
-  Mesh mesh{Vertices(2 * squares + 2, 3), Faces(2 * squares, 3)};
-  for (int i = 0; i <= squares; ++i) {
-    mesh.vertices.row(2 * i) << i, 0, 0;
-    mesh.vertices.row(2 * i + 1) << i, 1, 0;
-  }
-  for (int i = 0; i < squares; ++i) {
-    mesh.faces.row(2 * i) << 2 * i, 2 * i + 2, 2 * i + 3;
-    mesh.faces.row(2 * i + 1) << 2 * i, 2 * i + 3, 2 * i + 1;
-  }
-  return mesh;
-}
-
-TEST(SurfaceCentricity, ALongRibbonByTheClosedForm) {
+TEST(SurfaceCentricity, ALongStripByTheClosedForm) {
   // On a line of length L the mean distance at x is (x^2 + (L - x)^2) / 2 L, least in the middle, where it is L / 4.
   const int squares = 200;
-  const Eigen::VectorXd found = surface_centricity(ribbon(squares), 2 * squares);  // every face is a sample
+  const Eigen::VectorXd found = surface_centricity(test::strip(squares), 2 * squares);  // every face is a sample
   for (int f = 0; f < 2 * squares; ++f) {
     const double x = (f / 2 + 0.5) / squares;
     EXPECT_NEAR(found[f], 2 * (x * x + (1 - x) * (1 - x)), 0.02) << f;
   }
   EXPECT_EQ(found.minCoeff(), 1);
   // Few samples, spread evenly, say much the same.
-  EXPECT_LT((surface_centricity(ribbon(squares)) - found).cwiseAbs().maxCoeff(), 0.05);
+  EXPECT_LT((surface_centricity(test::strip(squares)) - found).cwiseAbs().maxCoeff(), 0.05);
 }
 
 TEST(SurfaceCentricity, NoPlaceOnASphereIsTheMiddle) {
@@ -45,8 +31,8 @@ TEST(SurfaceCentricity, NoPlaceOnASphereIsTheMiddle) {
   EXPECT_LT(found.maxCoeff(), 1.15);
 }
 
-TEST(SurfaceCentricity, BendingARibbonChangesLittle) {
-  Mesh bent = ribbon(60);
+TEST(SurfaceCentricity, BendingAStripChangesLittle) {
+  Mesh bent = test::strip(60);
   const Eigen::VectorXd straight = surface_centricity(bent);
   for (auto vertex : bent.vertices.rowwise()) {  // round a cylinder on which unit steps of x keep their length
     const double angle = vertex[0] / 10, radius = 0.5 / std::sin(0.05);
@@ -68,7 +54,7 @@ TEST(SurfaceCentricity, NeitherScaleNorPlaceMatters) {
 }
 
 TEST(SurfaceCentricity, EachPieceHasAMiddleOfItsOwn) {
-  const Mesh one = ribbon(30);
+  const Mesh one = test::strip(30);
   Mesh two{Vertices(2 * one.vertices.rows(), 3), Faces(2 * one.faces.rows(), 3)};
   const Vertices large = 5 * one.vertices;
   two.vertices << one.vertices, large.rowwise() + Eigen::RowVector3d(0, 0, 9);
@@ -81,7 +67,7 @@ TEST(SurfaceCentricity, EachPieceHasAMiddleOfItsOwn) {
 }
 
 TEST(SurfaceCentricity, RefusesWhatCannotBeMeasured) {
-  Mesh flat = ribbon(2);
+  Mesh flat = test::strip(2);
   EXPECT_THROW(surface_centricity(flat, 0), InputError);
   flat.vertices.setZero();
   EXPECT_THROW(surface_centricity(flat), InputError);

@@ -1,4 +1,4 @@
-// Smooth closed surfaces, and CGAL's view of a mesh, that several tests of this room share.
+// Surfaces, most of them smooth and closed, and CGAL's view of a mesh, that several tests of this room share.
 #pragma once
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -48,6 +48,20 @@ Mesh revolved(const Radius& radius, const Height& height, int rings, int sides) 
 inline Mesh sphere(double radius, int rings) {
   return revolved([&](double t) { return radius * std::sin(std::numbers::pi * t); },
                   [&](double t) { return -radius * std::cos(std::numbers::pi * t); }, rings, 2 * rings);
+}
+
+// A strip of `squares` unit squares along x, two faces each.
+inline Mesh strip(int squares) {
+  Mesh mesh{Vertices(2 * squares + 2, 3), Faces(2 * squares, 3)};
+  for (int i = 0; i <= squares; ++i) {
+    mesh.vertices.row(2 * i) << i, 0, 0;
+    mesh.vertices.row(2 * i + 1) << i, 1, 0;
+  }
+  for (int i = 0; i < squares; ++i) {
+    mesh.faces.row(2 * i) << 2 * i, 2 * i + 2, 2 * i + 3;
+    mesh.faces.row(2 * i + 1) << 2 * i, 2 * i + 3, 2 * i + 1;
+  }
+  return mesh;
 }
 
 // Two balls of radius 1, their centres 3 apart, and a thin rod between them.
