@@ -1,12 +1,13 @@
 #include "partwise/geometry/ray_scene.h"
 
+#include <tbb/task_arena.h>
+
 #include <cstddef>
 
 namespace partwise {
 
 RayScene::RayScene(const Vertices& vertices, const Faces& faces, RTCSceneFlags flags)
-    : device_(rtcNewDevice("threads=1")),  // One thread builds the hierarchy, so that it is the same one each time.
-      scene_(rtcNewScene(device_)) {
+    : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
   rtcSetSceneFlags(scene_, flags);
   RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* vertex =
@@ -20,7 +21,9 @@ RayScene::RayScene(const Vertices& vertices, const Faces& faces, RTCSceneFlags f
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(scene_, geometry);
   rtcReleaseGeometry(geometry);
-  rtcCommitScene(scene_);
+  // One thread builds the hierarchy, so that it is the same one each time. (A device told "threads=1" would hold the
+  // whole program to one thread for as long as it lives.)
+  tbb::task_arena(1).execute([&] { rtcCommitScene(scene_); });
 }
 
 RayScene::~RayScene() {
