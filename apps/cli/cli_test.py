@@ -363,7 +363,7 @@ class Render(CommandLine):
             (lambda s: s["light"].update(name="moon"), "moon"),
             (lambda s: s["light"].update(height=0), "light.height is not a number from 1"),
             (lambda s: s["light"].update(height=1.5), "light.height is not a whole number"),
-            (lambda s: s["light"].update(turns_with="wind"), "light.turns_with is neither"),
+            (lambda s: s["light"].update(turns_with="wind"), "light.turns_with is none of"),
             (lambda s: s["camera"].update(elevation="high"), "camera.elevation is not a number"),
             (lambda s: s["camera"].update(field_of_view=20), "camera.field_of_view means nothing"),
             (lambda s: s["camera"].update(zoom=2), "camera.zoom is not a field"),
@@ -371,7 +371,7 @@ class Render(CommandLine):
             (lambda s: s.update(size=[0, 3]), "size is not two whole numbers"),
             (lambda s: s.update(samples=0), "samples is not a number from 1"),
             (lambda s: s.update(shadows="yes"), "shadows is neither true nor false"),
-            (lambda s: s.update(path="photon_map"), "path is neither"),
+            (lambda s: s.update(path="photon_map"), "path is none of"),
         )
         for change, words in cases:
             with self.subTest(words):

@@ -97,8 +97,8 @@ int execute(const Command& command) {
   }
   catch_stop_signals();
   ProgressLine line(common.quiet);
+  Run run;
   try {
-    Run run;
     run.seed = static_cast<std::uint64_t>(common.seed);
     run.progress = line.progress();
     if (!common.json.empty() && common.json != "-") run.outputs.add("--json", common.json);
@@ -112,7 +112,7 @@ int execute(const Command& command) {
     return exit_usage;
   } catch (const Cancelled& error) {
     line.wipe();
-    say(fmt::format("{}; nothing was written", error.what()));
+    say(fmt::format("{}; {}", error.what(), run.if_stopped));
     return exit_signal + stop_signal();
   } catch (const std::bad_alloc&) {
     line.wipe();

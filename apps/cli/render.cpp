@@ -8,47 +8,28 @@
 #include <string>
 
 #include "options.h"
+#include "partwise/appearance/rendering/channel_files.h"
 #include "partwise/appearance/rendering/scene_file.h"
+#include "partwise/base/atomic_file.h"
 #include "partwise/imaging/exr.h"
-#include "partwise/imaging/png.h"
-#include "partwise/imaging/tone_mapping.h"
 #include "verbs.h"
 
 namespace partwise::cli {
 namespace {
 
 struct Options {
-  std::string scene, exr, png, normals, depth, mask, parts;
+  std::string scene, folder, exr, png, normals, depth, mask, parts;
 };
 
-// 8 bits with the curve in the codes already.
-void write_tone_mapped(const std::filesystem::path& path, const Image& image, const Image& mask) {
-  Image mapped = tone_map(image, exposure_by_median(image, mask));
-  for (float& value : mapped.values) value /= 255;
-  write_png(path, mapped, PngCodes::plain8);
-}
-
-void write_normals(const std::filesystem::path& path, Image normals) {
-  if (lower_ending(path) == ".exr") {
-    const ExrLayer layer{std::move(normals), {"X", "Y", "Z"}};
-    write_exr(path, {&layer, 1});
-    return;
-  }
-  for (float& value : normals.values) value = (value + 1) / 2;
-  write_png(path, normals, PngCodes::plain16);
+void write_normals(const std::filesystem::path& path, const GBuffer& seen) {
+  if (lower_ending(path) != ".exr") return write_file(path, encode_normals(seen));
+  const ExrLayer layer{seen.normal_image(), {"X", "Y", "Z"}};
+  write_exr(path, {&layer, 1});
 }
 
 void write_depth(const std::filesystem::path& path, Image depth) {
   const ExrLayer layer{std::move(depth), {"Z"}};
   write_exr(path, {&layer, 1});
-}
-
-// 16 bits, 0 for the background and k + 1 for part k.
-void write_parts(const std::filesystem::path& path, const GBuffer& seen) {
-  Image image(seen.size.width, seen.size.height, 1);
-  const std::vector<int> parts = seen.part_of_pixels();
-  for (std::size_t i = 0; i < parts.size(); ++i) image.values[i] = static_cast<float>(parts[i] + 1) / 65535;
-  write_png(path, image, PngCodes::plain16);
 }
 
 void render_file(const Options& options, Run& run) {
@@ -62,18 +43,20 @@ void render_file(const Options& options, Run& run) {
   add("--depth", options.depth, {".exr"});
   add("--mask", options.mask, {".png"});
   add("--parts", options.parts, {".png"});
-  const SceneFile scene = run.stage("read", [&] { return read_scene(options.scene); });
+  const SceneFile scene = run.stage("read", [&] {
+    return options.folder.empty() ? read_scene(options.scene) : read_scene(options.scene, options.folder);
+  });
   const auto start = std::chrono::steady_clock::now();
   const RenderedScene result = run.stage("render", [&] { return render(scene); });
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   run.stage("write", [&] {
     const Image mask = result.seen.mask_image();
     if (!options.exr.empty()) write_exr(run.outputs.staged("--exr"), result.image);
-    if (!options.png.empty()) write_tone_mapped(run.outputs.staged("--png"), result.image, mask);
-    if (!options.normals.empty()) write_normals(run.outputs.staged("--normals"), result.seen.normal_image());
+    if (!options.png.empty()) write_file(run.outputs.staged("--png"), encode_tone_mapped(result.image, mask));
+    if (!options.normals.empty()) write_normals(run.outputs.staged("--normals"), result.seen);
     if (!options.depth.empty()) write_depth(run.outputs.staged("--depth"), result.seen.depth_image());
-    if (!options.mask.empty()) write_png(run.outputs.staged("--mask"), mask, PngCodes::plain8);
-    if (!options.parts.empty()) write_parts(run.outputs.staged("--parts"), result.seen);
+    if (!options.mask.empty()) write_file(run.outputs.staged("--mask"), encode_mask(result.seen));
+    if (!options.parts.empty()) write_file(run.outputs.staged("--parts"), encode_parts(result.seen));
   });
   nlohmann::ordered_json& json = run.report;
   json["images"] = 1;
@@ -99,6 +82,8 @@ Action add(CLI::App& command) {
   command.add_option("SCENE", options->scene, "The scene (.json): meshes, materials, light, camera")
       ->required()
       ->type_name("");
+  add_file(command, "--folder", options->folder, "Where the files lie that the scene names [beside it]")
+      ->type_name("DIR");
   add_file(command, "--exr", options->exr, "Write the image, linear light (.exr)");
   add_file(command, "--png", options->png, "Write the image for the eye: exposure by the median, gamma 2.2 (.png)");
   add_file(command, "--normals", options->normals,

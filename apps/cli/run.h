@@ -17,6 +17,7 @@ struct Run {
   std::uint64_t seed = 0;
   Progress progress;
   Outputs outputs;
+  std::string if_stopped = "nothing was written";                     // what a stop leaves
   std::string summary;                                                // for people, on standard output
   nlohmann::ordered_json report = nlohmann::ordered_json::object();   // for programs, --json
   nlohmann::ordered_json seconds = nlohmann::ordered_json::object();  // wall time by stage, part of the report

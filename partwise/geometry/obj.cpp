@@ -2,6 +2,7 @@
 // points and free-form surfaces are passed over.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 #include <optional>
 #include <ostream>
@@ -9,6 +10,7 @@
 #include "partwise/base/error.h"
 #include "partwise/geometry/mesh_builder.h"
 #include "partwise/geometry/mesh_formats.h"
+#include "partwise/geometry/mesh_io.h"
 #include "partwise/geometry/text_scanner.h"
 
 namespace partwise {
@@ -84,6 +86,33 @@ Mesh read_obj(const std::string& file, std::string_view bytes) {
         "fix or drop the face");
   }
   return builder.build();
+}
+
+FaceMaterials read_obj_materials(const std::string& file, std::string_view bytes) {
+  TextScanner scanner(file, bytes, '#');
+  FaceMaterials materials;
+  bool any = false;
+  std::string worn;
+  for (std::string_view keyword = scanner.token(); !keyword.empty(); keyword = scanner.token()) {
+    if (keyword == "usemtl") {
+      worn.clear();
+      for (std::string_view word = scanner.token_in_line(); !word.empty(); word = scanner.token_in_line()) {
+        if (!worn.empty()) worn += ' ';
+        worn += word;
+      }
+      any = true;
+    } else if (keyword == "f" || keyword == "fo") {
+      std::size_t corners = 0;
+      while (!scanner.token_in_line().empty()) ++corners;
+      const auto found = std::ranges::find(materials.names, worn);
+      const auto place = static_cast<int>(found - materials.names.begin());
+      if (found == materials.names.end()) materials.names.push_back(worn);
+      materials.of_face.insert(materials.of_face.end(), std::max<std::size_t>(corners, 2) - 2, place);
+    }
+    if (keyword != "f" && keyword != "fo") scanner.skip_line();
+  }
+  if (!any) throw InputError(file, "names no materials (usemtl)", "tell parts apart by something else");
+  return materials;
 }
 
 void write_obj(std::ostream& out, std::span<const NamedMeshView> meshes) {

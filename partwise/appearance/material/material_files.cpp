@@ -191,4 +191,16 @@ std::vector<std::string> test_materials() {
 
 DsbrdfBasis shipped_basis() { return read_basis(shared_file("models/material_basis.json")); }
 
+bool is_material_file(const std::string& name) {
+  const std::string ending = std::filesystem::path(name).extension().string();
+  return ending == ".json" || ending == ".binary" || ending == ".h5";
+}
+
+std::shared_ptr<const Brdf> named_material(const std::string& name, const std::filesystem::path& folder) {
+  if (!is_material_file(name)) return std::make_shared<Dsbrdf>(shipped_material(name).brdf);
+  const std::filesystem::path file = folder / name;
+  if (file.extension() == ".json") return std::make_shared<Dsbrdf>(read_material(file).brdf);
+  return std::make_shared<MerlTable>(read_measured(file));
+}
+
 }  // namespace partwise

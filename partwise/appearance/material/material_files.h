@@ -8,6 +8,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -42,5 +43,9 @@ std::vector<std::string> shipped_materials();
 MaterialFile shipped_material(const std::string& name);
 std::vector<std::string> test_materials();
 DsbrdfBasis shipped_basis();
+
+// As people name a material: a shipped one, or a file (.json, .binary, .h5) relative to `folder`.
+bool is_material_file(const std::string& name);
+std::shared_ptr<const Brdf> named_material(const std::string& name, const std::filesystem::path& folder);
 
 }  // namespace partwise

@@ -153,6 +153,15 @@ EnvironmentLight shipped_light(const std::string& name) {
   return read_light(shared_file(shelf / (name + ".exr")));
 }
 
+bool is_light_file(const std::string& name) {
+  const std::string ending = std::filesystem::path(name).extension().string();
+  return ending == ".exr" || ending == ".hdr";
+}
+
+EnvironmentLight named_light(const std::string& name, const std::filesystem::path& folder) {
+  return is_light_file(name) ? read_light(folder / name) : shipped_light(name);
+}
+
 LightSamples light_samples(const EnvironmentLight& light, const Eigen::Matrix3d& rotation) {
   constexpr Eigen::Index together = 8;
   const Image& radiance = light.radiance();

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "partwise/appearance/material/material_files.h"
 #include "partwise/appearance/material/microfacet_brdf.h"
-#include "partwise/appearance/rendering/image_formation.h"
-#include "partwise/appearance/rendering/json_fields.h"
+#include "partwise/appearance/shapes/shape_fields.h"
+#include "partwise/appearance/json_fields.h"
 #include "partwise/base/error.h"
 #include "partwise/base/read_bytes.h"
 #include "partwise/geometry/mesh_io.h"
@@ -19,7 +20,8 @@ using nlohmann::json;
 
 class SceneReader {
  public:
-  explicit SceneReader(const std::filesystem::path& path) : path_(path) {}
+  SceneReader(std::filesystem::path path, std::filesystem::path folder)
+      : path_(std::move(path)), folder_(std::move(folder)) {}
 
   SceneFile read() {
     const std::string bytes = read_bytes(path_);
@@ -31,44 +33,34 @@ class SceneReader {
     for (std::size_t i = 0; i < meshes.size(); ++i) add_mesh(fmt::format("meshes[{}]", i), meshes[i]);
     read_light("light", fields.need("light"));
     if (const json* camera = fields.find("camera")) read_camera("camera", *camera);
-    read_size(fields);
+    std::tie(scene_.size.width, scene_.size.height) =
+        fields.two_sizes("size", {scene_.size.width, scene_.size.height});
     scene_.size.samples = fields.whole("samples", 4, 1, 256);
     scene_.shadows = fields.truth("shadows", false);
     scene_.path =
         fields.choice<RenderPath>("path", scene_.shadows ? RenderPath::exact : RenderPath::reflectance_map,
-                                  {"exact", RenderPath::exact}, {"reflectance_map", RenderPath::reflectance_map});
+                                  {{"exact", RenderPath::exact}, {"reflectance_map", RenderPath::reflectance_map}});
     scene_.map_size = fields.whole("map_size", 64, 8, 2048);
     if (scene_.shadows && scene_.path != RenderPath::exact) {
       fields.refuse("shadows", "needs the exact path", "leave path out, or shadows");
     }
+    fields.find("about");  // what people and programs note there
     fields.refuse_others();
     return std::move(scene_);
   }
 
  private:
-  JsonFields object(const std::string& place, const json& value) const { return {path_.string(), place, value}; }
+  JsonFields object(const std::string& place, const json& value) const { return {path_.string(), place, value, "docs/render.md"}; }
 
   std::filesystem::path file(const std::string& name) {
-    scene_.files.push_back(path_.parent_path() / name);
+    scene_.files.push_back(folder_ / name);
     return scene_.files.back();
   }
 
   void add_mesh(const std::string& place, const json& value) {
     JsonFields fields = object(place, value);
-    RenderMesh mesh{read_mesh(file(fields.text("file"))), {}, fields.number("crease", 40, 0, 180)};
-    const bool by_component = fields.truth("components", false);
-    if (by_component && fields.has("labels")) fields.refuse("components", "and labels are both there", "keep one");
-    if (by_component) {
-      mesh.parts = face_components_by_vertex(mesh.mesh).label;
-    } else if (fields.has("labels")) {
-      mesh.parts = read_labels(file(fields.text("labels")));
-      if (static_cast<Eigen::Index>(mesh.parts.size()) != mesh.mesh.faces.rows()) {
-        fields.refuse("labels", fmt::format("has {} lines for {} faces", mesh.parts.size(), mesh.mesh.faces.rows()),
-                      "give the labels of this mesh");
-      }
-    } else {
-      mesh.parts.assign(static_cast<std::size_t>(mesh.mesh.faces.rows()), 0);
-    }
+    RenderMesh mesh = read_shape_or_mesh(fields);
+    mesh.crease_degrees = fields.number("crease", mesh.crease_degrees, 0, 180);
     const auto [least, most] = std::ranges::minmax(mesh.parts);
     constexpr int most_parts = 65534;  // that a picture of 16 bits can tell apart
     const auto before = static_cast<int>(scene_.materials.size());
@@ -79,6 +71,36 @@ class SceneReader {
     for (int& part : mesh.parts) part += before;
     scene_.meshes.push_back(std::move(mesh));
     fields.refuse_others();
+  }
+
+  RenderMesh read_shape_or_mesh(JsonFields& fields) {
+    RenderMesh mesh;
+    const std::filesystem::path path = file(fields.text("file"));
+    const bool by_component = fields.truth("components", false), by_labels = fields.has("labels");
+    const bool is_shape = fields.has("parts") || is_archive(path);
+    if (by_component + by_labels + fields.has("parts") > 1) {
+      const std::string first = by_component ? "components" : "labels";
+      fields.refuse(first, by_labels && by_component ? "and labels are both there" : "and parts are both there",
+                    "keep one");
+    }
+    if (is_shape) {
+      const ShapeFile shape{path, is_archive(path) ? fields.text("model") : ""};
+      mesh.mesh = read_shape(shape);
+      const PartSettings settings = take_part_settings(fields, PartRule::whole);
+      if (!by_component && !by_labels) mesh.parts = worn_parts(shape, mesh.mesh, settings);
+    } else {
+      mesh.mesh = read_mesh(path);
+    }
+    if (by_component) mesh.parts = face_components_by_vertex(mesh.mesh).label;
+    if (by_labels) {
+      mesh.parts = read_labels(file(fields.text("labels")));
+      if (static_cast<Eigen::Index>(mesh.parts.size()) != mesh.mesh.faces.rows()) {
+        fields.refuse("labels", fmt::format("has {} lines for {} faces", mesh.parts.size(), mesh.mesh.faces.rows()),
+                      "give the labels of this mesh");
+      }
+    }
+    if (mesh.parts.empty()) mesh.parts.assign(static_cast<std::size_t>(mesh.mesh.faces.rows()), 0);
+    return mesh;
   }
 
   // One material for all parts, or a list that the parts take in turn.
@@ -99,7 +121,11 @@ class SceneReader {
   }
 
   std::shared_ptr<const Brdf> material(const JsonFields& fields, const std::string& name, const json& value) {
-    if (value.is_string() && !value.get<std::string>().empty()) return named_material(value.get<std::string>());
+    if (value.is_string() && !value.get<std::string>().empty()) {
+      const std::string text = value.get<std::string>();
+      if (is_material_file(text)) file(text);
+      return named_material(text, folder_);
+    }
     if (!value.is_object()) {
       fields.refuse(name, "is neither a name nor an object",
                     "name a shipped material, a file, or give {\"albedo\": ...}");
@@ -115,13 +141,6 @@ class SceneReader {
     return std::make_shared<MicrofacetBrdf>(colour);  // without lobes, that is Lambert's
   }
 
-  std::shared_ptr<const Brdf> named_material(const std::string& name) {
-    const std::string ending = std::filesystem::path(name).extension().string();
-    if (ending == ".json") return std::make_shared<Dsbrdf>(read_material(file(name)).brdf);
-    if (ending == ".binary" || ending == ".h5") return std::make_shared<MerlTable>(read_measured(file(name)));
-    return std::make_shared<Dsbrdf>(shipped_material(name).brdf);
-  }
-
   void read_light(const std::string& place, const json& value) {
     JsonFields fields = object(place, value);
     if (fields.has("name") == fields.has("file")) {
@@ -133,7 +152,7 @@ class SceneReader {
     const int width = fields.whole("width", 2 * height, 1, 8192);
     const double rotation = fields.number("rotation", 0, -36000, 36000);
     const double exposure = fields.number("scale", 1, 0, 1e6);
-    scene_.light_turns_with_camera = fields.choice<bool>("turns_with", true, {"camera", true}, {"scene", false});
+    scene_.light_turns_with_camera = fields.choice<bool>("turns_with", true, {{"camera", true}, {"scene", false}});
     fields.refuse_others();
     Image map = light.resized(width, height).rotated(rotation).radiance();
     for (float& each : map.values) each *= static_cast<float>(exposure);
@@ -145,7 +164,7 @@ class SceneReader {
     ShareView& view = scene_.view;
     view.azimuth = fields.number("azimuth", view.azimuth, -36000, 36000);
     view.elevation = fields.number("elevation", view.elevation, -90, 90);
-    const bool orthographic = fields.choice<bool>("projection", true, {"orthographic", true}, {"perspective", false});
+    const bool orthographic = fields.choice<bool>("projection", true, {{"orthographic", true}, {"perspective", false}});
     view.field_of_view = fields.number("field_of_view", 30, 1, 120);
     if (orthographic && fields.has("field_of_view")) {
       fields.refuse("field_of_view", "means nothing to an orthographic camera", "leave it out, or take perspective");
@@ -155,64 +174,28 @@ class SceneReader {
     fields.refuse_others();
   }
 
-  void read_size(JsonFields& fields) {
-    const json* size = fields.find("size");
-    if (size == nullptr) return;
-    const auto fits = [](const json& each) {
-      return each.is_number_integer() && each.get<double>() >= 1 && each.get<double>() <= 8192;
-    };
-    if (!size->is_array() || size->size() != 2 || !std::ranges::all_of(*size, fits)) {
-      fields.refuse("size", "is not two whole numbers from 1 to 8192", "write [width, height]");
-    }
-    scene_.size.width = (*size)[0].get<int>();
-    scene_.size.height = (*size)[1].get<int>();
-  }
-
-  std::filesystem::path path_;
+  std::filesystem::path path_, folder_;
   SceneFile scene_;
 };
 
-template <typename Each>
-std::vector<const Each*> pointers(const std::vector<std::shared_ptr<const Each>>& owners) {
-  std::vector<const Each*> result;
-  for (const auto& each : owners) result.push_back(each.get());
-  return result;
-}
-
-// Parts that wear the same material share what is computed of it.
-template <typename Each, typename Make>
-std::vector<std::shared_ptr<const Each>> one_a_material(const SceneFile& scene, const Make& make) {
-  std::vector<std::shared_ptr<const Each>> result;
-  for (std::size_t part = 0; part < scene.materials.size(); ++part) {
-    const auto first = std::ranges::find(scene.materials, scene.materials[part]) - scene.materials.begin();
-    result.push_back(first < static_cast<std::ptrdiff_t>(part) ? result[static_cast<std::size_t>(first)]
-                                                               : make(*scene.materials[part]));
-  }
-  return result;
-}
-
 }  // namespace
 
-SceneFile read_scene(const std::filesystem::path& path) { return SceneReader(path).read(); }
+SceneFile read_scene(const std::filesystem::path& path) { return read_scene(path, path.parent_path()); }
+
+SceneFile read_scene(const std::filesystem::path& path, const std::filesystem::path& folder) {
+  return SceneReader(path, folder).read();
+}
 
 RenderedScene render(const SceneFile& scene) {
   const RenderScene meshes(scene.meshes);
   const Camera camera = frame_share(meshes, scene.view, static_cast<double>(scene.size.width) / scene.size.height);
   GBuffer seen = meshes.view(camera, scene.size);
-  const LightSamples light = light_samples(
-      scene.light, scene.light_turns_with_camera ? Eigen::Matrix3d(Eigen::Matrix3d::Identity()) : camera.axes);
-  Image image;
-  if (scene.path == RenderPath::reflectance_map) {
-    const auto maps = one_a_material<ReflectanceMap>(scene, [&](const Brdf& material) {
-      return std::make_shared<const ReflectanceMap>(material, light, scene.map_size);
-    });
-    image = mapped_image(seen, pointers(maps));
-  } else {
-    const auto sums = one_a_material<LightSum>(
-        scene, [&](const Brdf& material) { return std::make_shared<const LightSum>(material, light); });
-    image =
-        scene.shadows ? shadowed_image(seen, pointers(sums), meshes, camera, light) : exact_image(seen, pointers(sums));
-  }
+  const PartColours colours(scene.materials,
+                            light_samples(scene.light, scene.light_turns_with_camera
+                                                           ? Eigen::Matrix3d(Eigen::Matrix3d::Identity())
+                                                           : camera.axes),
+                            scene.path, scene.map_size);
+  Image image = scene.shadows ? colours.shadowed_image(seen, meshes, camera) : colours.image(seen);
   return {std::move(seen), camera, std::move(image)};
 }
 

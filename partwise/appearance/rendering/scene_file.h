@@ -1,6 +1,6 @@
 // A scene to be rendered, from JSON (docs/render.md), and its image.
 //
-// Files are named relative to the scene's folder. Every field is checked, and none may be there that is not known.
+// Files are named relative to the scene's folder, or another that is given. Every field is checked, and none may be there that is not known.
 // Errors: InputError with the scene's file and the field's place ("meshes[1].labels") for what is missing, of the wrong
 // kind or out of range, and those of the files that it names.
 #pragma once
@@ -13,11 +13,10 @@
 #include "partwise/appearance/material/brdf.h"
 #include "partwise/appearance/rendering/environment_light.h"
 #include "partwise/appearance/rendering/g_buffer.h"
+#include "partwise/appearance/rendering/part_colours.h"
 #include "partwise/imaging/image.h"
 
 namespace partwise {
-
-enum class RenderPath { exact, reflectance_map };
 
 struct SceneFile {
   std::vector<RenderMesh> meshes;                      // parts are numbered on from mesh to mesh
@@ -33,6 +32,7 @@ struct SceneFile {
 };
 
 SceneFile read_scene(const std::filesystem::path& path);
+SceneFile read_scene(const std::filesystem::path& path, const std::filesystem::path& folder);
 
 struct RenderedScene {
   GBuffer seen;

@@ -46,7 +46,6 @@ void check(const SamplePlan& plan) {
     throw InputError("views", fmt::format("{} of {} viewpoints", plan.views, plan.viewpoints),
                      "give 1 or more, at most as many as viewpoints");
   }
-  PARTWISE_CHECK(static_cast<int>(plan.parts.size()), ==, plan.shapes);
 }
 
 }  // namespace
@@ -62,7 +61,7 @@ Sample sample(const SamplePlan& plan, std::uint64_t number) {
   result.light_turn = 2 * std::numbers::pi * draw(Purpose::turn).unit();
   result.viewpoint = draw(Purpose::view).different(plan.views, plan.viewpoints)[number % views];
   Draw material = draw(Purpose::material);
-  const int parts = plan.parts[static_cast<std::size_t>(result.shape)];
+  const int parts = plan.parts(result.shape);
   while (static_cast<int>(result.materials.size()) < parts) {
     const int missing = parts - static_cast<int>(result.materials.size());
     for (const int each : material.different(std::min(missing, plan.materials), plan.materials))

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace partwise {
@@ -17,7 +18,7 @@ namespace partwise {
 struct SamplePlan {
   std::uint64_t seed = 0;
   int shapes = 1, materials = 1, lights = 1;  // how many there are to draw from
-  std::vector<int> parts;                     // of each shape
+  std::function<int(int shape)> parts;        // how many a shape has; asked for the shapes that are drawn alone
   int viewpoints = 24;                        // azimuths, evenly spaced
   int views = 5;                              // of each combination, at most viewpoints
 };

@@ -33,6 +33,8 @@ class ModelArchive {
   const std::vector<CatalogueModel>& models() const { return models_; }  // in the catalogue's order
   const CatalogueModel& model(const std::string& id) const;
   Mesh read(const std::string& id) const;
+  // The bytes of its OBJ file, as it is.
+  std::string bytes(const std::string& id) const;
 
  private:
   std::filesystem::path path_;

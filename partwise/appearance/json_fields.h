@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cmath>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "partwise/base/error.h"
 
@@ -13,9 +15,9 @@ namespace partwise {
 
 class JsonFields {
  public:
-  // `place` is that of the object in the file, empty for the whole.
-  JsonFields(std::string file, std::string place, const nlohmann::json& object)
-      : file_(std::move(file)), place_(std::move(place)), object_(object) {
+  // `place` is that of the object in the file, empty for the whole; `page` of the docs says what fields there are.
+  JsonFields(std::string file, std::string place, const nlohmann::json& object, std::string page)
+      : file_(std::move(file)), place_(std::move(place)), page_(std::move(page)), object_(object) {
     if (!object_.is_object()) refuse("", "is not an object", "write { ... }");
   }
 
@@ -71,25 +73,54 @@ class JsonFields {
     return found.get<std::string>();
   }
 
-  // One of two words; `otherwise` where it is missing.
+  // A text or a list of them, of one or more.
+  std::vector<std::string> texts(const std::string& name) {
+    const nlohmann::json& found = need(name);
+    std::vector<std::string> result;
+    if (found.is_string()) return {text(name)};
+    if (!found.is_array() || found.empty()) refuse(name, "is no list of texts", "write [\"...\"]");
+    for (const nlohmann::json& each : found) {
+      if (!each.is_string() || each.get<std::string>().empty()) refuse(name, "holds what is no text", "write it in quotes");
+      result.push_back(each.get<std::string>());
+    }
+    return result;
+  }
+
+  // Two whole numbers, width and height.
+  std::pair<int, int> two_sizes(const std::string& name, std::pair<int, int> otherwise) {
+    constexpr double most = 8192;
+    const nlohmann::json* found = find(name);
+    if (found == nullptr) return otherwise;
+    const auto fits = [](const nlohmann::json& each) {
+      return each.is_number_integer() && each.get<double>() >= 1 && each.get<double>() <= most;
+    };
+    if (!found->is_array() || found->size() != 2 || !fits((*found)[0]) || !fits((*found)[1])) {
+      refuse(name, fmt::format("is not two whole numbers from 1 to {}", most), "write [width, height]");
+    }
+    return {(*found)[0].get<int>(), (*found)[1].get<int>()};
+  }
+
+  // One of a few words; `otherwise` where it is missing.
   template <typename Value>
-  Value choice(const std::string& name, Value otherwise, const std::pair<const char*, Value>& a,
-               const std::pair<const char*, Value>& b) {
+  Value choice(const std::string& name, Value otherwise, std::initializer_list<std::pair<const char*, Value>> words) {
     if (!has(name)) return otherwise;
     const std::string word = text(name);
-    if (word == a.first) return a.second;
-    if (word == b.first) return b.second;
-    refuse(name, fmt::format("is neither \"{}\" nor \"{}\"", a.first, b.first), "take one of them");
+    std::string all;
+    for (const auto& [each, value] : words) {
+      if (word == each) return value;
+      all += fmt::format("{}\"{}\"", all.empty() ? "" : ", ", each);
+    }
+    refuse(name, fmt::format("is none of {}", all), "take one of them");
   }
 
   void refuse_others() const {
     for (const auto& [name, value] : object_.items()) {
-      if (!known_.contains(name)) refuse(name, "is not a field that is known", "see docs/render.md");
+      if (!known_.contains(name)) refuse(name, "is not a field that is known", "see " + page_);
     }
   }
 
  private:
-  std::string file_, place_;
+  std::string file_, place_, page_;
   const nlohmann::json& object_;
   std::set<std::string> known_;
 };

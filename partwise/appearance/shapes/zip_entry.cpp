@@ -1,4 +1,4 @@
-#include "partwise/appearance/synthesis/zip_entry.h"
+#include "partwise/appearance/shapes/zip_entry.h"
 
 #include <archive.h>
 #include <archive_entry.h>

@@ -1,4 +1,4 @@
-#include "partwise/appearance/synthesis/part_groups.h"
+#include "partwise/appearance/shapes/part_groups.h"
 
 #include <fmt/format.h>
 

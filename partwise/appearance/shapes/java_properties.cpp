@@ -1,4 +1,4 @@
-#include "partwise/appearance/synthesis/java_properties.h"
+#include "partwise/appearance/shapes/java_properties.h"
 
 #include <charconv>
 #include <cstdint>

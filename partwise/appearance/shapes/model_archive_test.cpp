@@ -1,4 +1,4 @@
-#include "partwise/appearance/synthesis/model_archive.h"
+#include "partwise/appearance/shapes/model_archive.h"
 
 #include <archive.h>
 #include <archive_entry.h>
@@ -7,7 +7,7 @@
 #include <fstream>
 #include <map>
 
-#include "partwise/appearance/synthesis/java_properties.h"
+#include "partwise/appearance/shapes/java_properties.h"
 #include "partwise/base/error.h"
 #include "partwise/base/read_bytes.h"
 #include "partwise/base/test_folder.h"

@@ -1,4 +1,4 @@
-#include "partwise/appearance/synthesis/model_archive.h"
+#include "partwise/appearance/shapes/model_archive.h"
 
 #include <algorithm>
 #include <charconv>
@@ -7,8 +7,8 @@
 #include <optional>
 #include <sstream>
 
-#include "partwise/appearance/synthesis/java_properties.h"
-#include "partwise/appearance/synthesis/zip_entry.h"
+#include "partwise/appearance/shapes/java_properties.h"
+#include "partwise/appearance/shapes/zip_entry.h"
 #include "partwise/base/error.h"
 #include "partwise/geometry/mesh_io.h"
 
@@ -93,9 +93,11 @@ const CatalogueModel& ModelArchive::model(const std::string& id) const {
 
 Mesh ModelArchive::read(const std::string& id) const {
   const CatalogueModel& found = model(id);
-  Mesh mesh = read_mesh(path_.string() + ":" + found.file, read_zip_entry(path_, found.file));
+  Mesh mesh = read_mesh(path_.string() + ":" + found.file, bytes(id));
   place_as_catalogued(mesh, found);
   return mesh;
 }
+
+std::string ModelArchive::bytes(const std::string& id) const { return read_zip_entry(path_, model(id).file); }
 
 }  // namespace partwise

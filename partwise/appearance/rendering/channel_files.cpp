@@ -1,0 +1,34 @@
+#include "partwise/appearance/rendering/channel_files.h"
+
+#include "partwise/base/error.h"
+#include "partwise/imaging/png.h"
+#include "partwise/imaging/tone_mapping.h"
+
+namespace partwise {
+
+std::string encode_tone_mapped(const Image& linear, const Image& mask) {
+  Image mapped = tone_map(linear, exposure_by_median(linear, mask));
+  for (float& value : mapped.values) value /= 255;
+  return encode_png(mapped, PngCodes::plain8);  // the codes have their curve already
+}
+
+std::string encode_normals(const GBuffer& seen) {
+  Image normals = seen.normal_image();
+  for (float& value : normals.values) value = (value + 1) / 2;
+  return encode_png(normals, PngCodes::plain16);
+}
+
+std::string encode_mask(const GBuffer& seen) { return encode_png(seen.mask_image(), PngCodes::plain8); }
+
+std::string encode_parts(const GBuffer& seen) {
+  constexpr int most = 65535;
+  Image image(seen.size.width, seen.size.height, 1);
+  const std::vector<int> parts = seen.part_of_pixels();
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    PARTWISE_CHECK(parts[i] + 1, <=, most);
+    image.values[i] = static_cast<float>(parts[i] + 1) / most;
+  }
+  return encode_png(image, PngCodes::plain16);
+}
+
+}  // namespace partwise

@@ -1,0 +1,186 @@
+#include "partwise/appearance/synthesis/dataset_config.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <tuple>
+
+#include "partwise/appearance/json_fields.h"
+#include "partwise/appearance/material/material_files.h"
+#include "partwise/appearance/shapes/model_archive.h"
+#include "partwise/appearance/shapes/shape_fields.h"
+#include "partwise/appearance/synthesis/file_patterns.h"
+#include "partwise/base/error.h"
+#include "partwise/base/read_bytes.h"
+
+namespace partwise {
+namespace {
+
+using nlohmann::json;
+
+class ConfigReader {
+ public:
+  explicit ConfigReader(const std::filesystem::path& path) : path_(path) { config_.folder = path.parent_path(); }
+
+  DatasetConfig read() {
+    const json whole = json::parse(read_bytes(path_), nullptr, false);
+    if (whole.is_discarded()) throw InputError(path_.string(), "is not JSON", "check brackets, quotes and commas");
+    JsonFields fields = object("", whole);
+    read_shapes(fields);
+    config_.parts = take_part_settings(fields, config_.parts.rule);
+    config_.crease_degrees = fields.number("crease", config_.crease_degrees, 0, 180);
+    config_.materials = materials(fields);
+    config_.lights = lights(fields);
+    read_rendering(fields);
+    read_counts(fields);
+    fields.refuse_others();
+    return std::move(config_);
+  }
+
+ private:
+  JsonFields object(const std::string& place, const json& value) const {
+    return {path_.string(), place, value, "docs/dataset.md"};
+  }
+
+  std::vector<std::string> files(const JsonFields& fields, const std::string& place, const std::string& pattern) const {
+    std::vector<std::string> found = files_matching(config_.folder, pattern);
+    if (found.empty()) {
+      const bool one = !is_pattern(pattern);
+      fields.refuse(place, fmt::format("\"{}\" {}", pattern, one ? "does not exist" : "matches no file"),
+                    fmt::format("name files relative to {}",
+                                config_.folder.empty() ? "this folder" : config_.folder.string()));
+    }
+    return found;
+  }
+
+  void read_shapes(JsonFields& fields) {
+    const json& shapes = fields.need("shapes");
+    if (!shapes.is_array() || shapes.empty()) fields.refuse("shapes", "is no list of shapes", "write [\"...\"]");
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      const std::string place = fmt::format("shapes[{}]", i);
+      if (shapes[i].is_string()) {
+        for (const std::string& file : files(fields, place, shapes[i].get<std::string>())) add_shapes(file);
+      } else {
+        add_models(place, shapes[i]);
+      }
+    }
+  }
+
+  void add_shapes(const std::string& file) {
+    if (!is_archive(file)) return config_.shapes.push_back({file});
+    const ModelArchive archive(config_.folder / file);
+    for (const CatalogueModel& model : archive.models()) config_.shapes.push_back({file, model.id});
+  }
+
+  // Of an archive those that are named, or of some categories, or all; less some.
+  void add_models(const std::string& place, const json& value) {
+    JsonFields fields = object(place, value);
+    const std::string file = fields.text("archive");
+    const ModelArchive archive(config_.folder / file);
+    const auto listed = [&](const char* name) {
+      return fields.has(name) ? fields.texts(name) : std::vector<std::string>();
+    };
+    const std::vector<std::string> ids = listed("ids"), categories = listed("categories"), except = listed("except");
+    fields.refuse_others();
+    if (!ids.empty() && !categories.empty()) fields.refuse("ids", "and categories are both there", "keep one");
+    for (const auto* names : {&ids, &except})
+      for (const std::string& id : *names) archive.model(id);  // is there
+    for (const std::string& category : categories) {
+      if (std::ranges::find(archive.models(), category, &CatalogueModel::category) == archive.models().end()) {
+        fields.refuse("categories", fmt::format("\"{}\" is none of the archive's", category),
+                      fmt::format("\"{}\" is one", archive.models().front().category));
+      }
+    }
+    const std::size_t before = config_.shapes.size();
+    const auto has = [](const std::vector<std::string>& names, const std::string& name) {
+      return std::ranges::find(names, name) != names.end();
+    };
+    for (const CatalogueModel& model : archive.models()) {
+      const bool wanted = ids.empty() ? categories.empty() || has(categories, model.category) : has(ids, model.id);
+      if (wanted && !has(except, model.id)) config_.shapes.push_back({file, model.id});
+    }
+    if (config_.shapes.size() == before) fields.refuse("except", "leaves no model", "name fewer");
+  }
+
+  std::vector<std::string> materials(JsonFields& fields) const {
+    const std::vector<std::string> shipped = shipped_materials();
+    const json& given = fields.need("materials");
+    if (given == "all") return shipped;
+    if (given == "training" || given == "test") {
+      const std::vector<std::string> test = test_materials();
+      if (given == "test") return test;
+      std::vector<std::string> others;
+      for (const std::string& name : shipped)
+        if (std::ranges::find(test, name) == test.end()) others.push_back(name);
+      return others;
+    }
+    std::vector<std::string> result;
+    for (const std::string& name : fields.texts("materials")) {
+      if (is_material_file(name)) {
+        std::ranges::copy(files(fields, "materials", name), std::back_inserter(result));
+      } else if (std::ranges::binary_search(shipped, name)) {
+        result.push_back(name);
+      } else {
+        fields.refuse("materials", fmt::format("\"{}\" is no shipped material and no file", name),
+                      "choose names that partwise material list gives, all, training or test");
+      }
+    }
+    return result;
+  }
+
+  std::vector<std::string> lights(JsonFields& fields) const {
+    const std::vector<std::string> shipped = shipped_lights();
+    if (fields.need("lights") == "all") return shipped;
+    std::vector<std::string> result;
+    for (const std::string& name : fields.texts("lights")) {
+      if (is_light_file(name)) {
+        std::ranges::copy(files(fields, "lights", name), std::back_inserter(result));
+      } else if (std::ranges::binary_search(shipped, name)) {
+        result.push_back(name);
+      } else {
+        fields.refuse("lights", fmt::format("\"{}\" is no shipped light and no .exr or .hdr file", name),
+                      fmt::format("take some of {}, or all", fmt::join(shipped, ", ")));
+      }
+    }
+    return result;
+  }
+
+  void read_rendering(JsonFields& fields) {
+    std::tie(config_.light_width, config_.light_height) =
+        fields.two_sizes("light_size", {config_.light_width, config_.light_height});
+    std::tie(config_.size.width, config_.size.height) =
+        fields.two_sizes("size", {config_.size.width, config_.size.height});
+    config_.size.samples = fields.whole("samples", config_.size.samples, 1, 256);
+    config_.path = fields.choice<RenderPath>(
+        "path", config_.path, {{"exact", RenderPath::exact}, {"reflectance_map", RenderPath::reflectance_map}});
+    config_.map_size = fields.whole("map_size", config_.map_size, 8, 2048);
+    config_.view.elevation = fields.number("elevation", config_.view.elevation, -90, 90);
+    config_.view.share = fields.number("share", config_.view.share, 0.01, 0.9);
+    config_.format =
+        fields.choice<ImageFormat>("format", config_.format, {{"exr", ImageFormat::exr}, {"png", ImageFormat::png}});
+  }
+
+  void read_counts(JsonFields& fields) {
+    config_.viewpoints = fields.whole("viewpoints", config_.viewpoints, 1, 100000);
+    config_.views = fields.whole("views", std::min(config_.views, config_.viewpoints), 1, 100000);
+    if (config_.views > config_.viewpoints) {
+      fields.refuse("views", fmt::format("is more than the {} viewpoints", config_.viewpoints), "give fewer");
+    }
+    config_.seed = static_cast<std::uint64_t>(fields.whole("seed", 0, 0, 2147483647));
+    fields.need("images");
+    config_.images = fields.whole("images", 0, 1, 2000000000);
+    config_.images_per_shard = fields.whole("images_per_shard", config_.images_per_shard, 1, 1000000);
+    if (fields.has("output")) config_.output = config_.folder / fields.text("output");
+  }
+
+  std::filesystem::path path_;
+  DatasetConfig config_;
+};
+
+}  // namespace
+
+DatasetConfig read_dataset_config(const std::filesystem::path& path) { return ConfigReader(path).read(); }
+
+}  // namespace partwise
