@@ -19,6 +19,8 @@ constexpr Index normal_block = 2048, light_block = 512;
 
 Index blocks(Index size, Index block) { return (size + block - 1) / block; }
 
+std::size_t lobe_number(int channel, int lobe) { return static_cast<std::size_t>(dsbrdf_lobe_count * channel + lobe); }
+
 // Every block of normals with every block of light, in parallel.
 template <typename Work>
 void for_blocks(Index normals, Index lights, const Work& work) {
@@ -72,6 +74,7 @@ void DifferentiableSum<Scalar>::add_colours(std::size_t light, const Block& norm
   const auto weight = weights_.row(static_cast<Index>(light));
   if ((weight == 0).all()) return;
   const LightPixel<Scalar>& pixel = grid_[light];
+  const LobeLanes<Scalar> lobes(lobes_[light]);
   for (Index row = 0; row < normals.values.rows(); row += Block::width) {
     const std::array<Value, 3> normal = normals.at(row);
     const Value cosine = dot(normal, pixel.direction);
@@ -80,8 +83,8 @@ void DifferentiableSum<Scalar>::add_colours(std::size_t light, const Block& norm
     for (int channel = 0; channel < 3; ++channel) {
       Value value{};
       for (int r = 0; r < dsbrdf_lobe_count; ++r) {
-        const LobeLanes<Scalar> lobe(lobes_[light], dsbrdf_lobe_count * channel + r, half.log(r));
-        if (lobe.seen) value += lobe.value();
+        LobeValue<Value> at;
+        if (lobes.evaluate(lobe_number(channel, r), half.log(r), at)) value += at.value;
       }
       add_to(&colours.values(row, channel), value * largest(cosine, Value{}) * weight[channel]);
     }
@@ -118,6 +121,7 @@ void DifferentiableSum<Scalar>::add_gradient(std::size_t light, const Block& nor
   const auto weight = weights_.row(static_cast<Index>(light));
   std::array<Value, lobe_total> of_log_kappa{}, of_gamma{};
   std::array<Value, 3> of_radiance{};
+  const LobeLanes<Scalar> lobes(lobes_[light]);
   for (Index row = 0; row < normals.values.rows(); row += Block::width) {
     const std::array<Value, 3> normal = normals.at(row);
     const Value cosine = dot(normal, pixel.direction);
@@ -130,15 +134,14 @@ void DifferentiableSum<Scalar>::add_gradient(std::size_t light, const Block& nor
       const Value arriving = given * cosine * weight[channel];
       Value value{}, steepness{};
       for (int r = 0; r < dsbrdf_lobe_count; ++r) {
-        const int number = dsbrdf_lobe_count * channel + r;
-        const auto at = static_cast<std::size_t>(number);
-        const LobeLanes<Scalar> lobe(lobes_[light], number, half.log(r));
-        if (!lobe.seen) continue;
-        const Value reflected = lobe.value(), slope = lobe.slope(reflected), change = arriving * slope;
-        value += reflected;
-        of_log_kappa[at] += change;
-        of_gamma[at] += change * half.log(r);
-        steepness += slope * lobes_[light].gamma[at] * half.log_slope(r);
+        const std::size_t lobe = lobe_number(channel, r);
+        LobeValue<Value> at;
+        if (!lobes.evaluate(lobe, half.log(r), at)) continue;
+        const Value change = arriving * at.slope;
+        value += at.value;
+        of_log_kappa[lobe] += change;
+        of_gamma[lobe] += change * half.log(r);
+        steepness += at.slope * lobes_[light].gamma[lobe] * half.log_slope(r);
       }
       of_radiance[static_cast<std::size_t>(channel)] += given * cosine * value;
       of_cosine += given * weight[channel] * value;
@@ -150,12 +153,12 @@ void DifferentiableSum<Scalar>::add_gradient(std::size_t light, const Block& nor
       add_to(&of_normals.values(row, k), of_cosine * pixel.direction[at] + of_half_cosine * pixel.half_vector[at]);
     }
   }
-  PixelLobes<Scalar> lobes;
+  PixelLobes<Scalar> of_lobes;
   for (std::size_t at = 0; at < lobe_total; ++at) {
-    lobes.log_kappa[at] = sum(of_log_kappa[at]);
-    lobes.gamma[at] = sum(of_gamma[at]);
+    of_lobes.log_kappa[at] = sum(of_log_kappa[at]);
+    of_lobes.gamma[at] = sum(of_gamma[at]);
   }
-  of_light.lobes.push_back(lobes);
+  of_light.lobes.push_back(of_lobes);
   of_light.radiance.push_back({pixel.solid_angle * sum(of_radiance[0]), pixel.solid_angle * sum(of_radiance[1]),
                                pixel.solid_angle * sum(of_radiance[2])});
 }

@@ -1,8 +1,10 @@
 // The lobes of a Dsbrdf and their derivatives, in the lanes of a kernel. Internal to this room.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 #include "partwise/appearance/rendering/lobe_values.h"
 #include "partwise/learning/lanes.h"
@@ -48,29 +50,60 @@ class HalfCosines {
   Value cosine_, inverse_, first_, others_;
 };
 
-// One lobe: expm1(exp(x)) with x = log(kappa) + gamma log(n.h), exp(x) no more than its bound.
+// A lobe at some normals: expm1(exp(x)) with x = log(kappa) + gamma log(n.h), exp(x) no more than its bound; and the
+// derivative to x, zero where the bound holds.
+template <typename Value>
+struct LobeValue {
+  Value value, slope;
+};
+
+// The lobes of one light pixel. evaluate() is false where no lane would notice the lobe.
 template <typename Scalar>
-class LobeLanes {
+class LobeLanes;
+
+template <>
+class LobeLanes<double> {
  public:
-  using Value = typename lanes::Lanes<Scalar>::Value;
+  explicit LobeLanes(const PixelLobes<double>& lobes) : lobes_(lobes) {}
 
-  bool seen;  // by any lane
-
-  LobeLanes(const PixelLobes<Scalar>& lobes, int number, const Value& log_cosine) {
-    const auto at = static_cast<std::size_t>(number);
-    logarithm_ = lobes.gamma[at] * log_cosine + lobes.log_kappa[at];
-    seen = lanes::any_positive(logarithm_ - lanes::Lanes<Scalar>::least_logarithm);
-    if (seen) exponent_ = lanes::exp(lanes::least(logarithm_, Value{} + bound()));
+  bool evaluate(std::size_t lobe, double log_cosine, LobeValue<double>& at) const {
+    const double exponent = std::exp(lobes_.log_kappa[lobe] + lobes_.gamma[lobe] * log_cosine);
+    at.value = std::expm1(std::min(exponent, largest_exponent));
+    at.slope = exponent < largest_exponent ? exponent * (at.value + 1) : 0;
+    return true;
   }
 
-  Value value() const { return lanes::expm1(exponent_); }
-  // To x, given the value.
-  Value slope(const Value& value) const { return logarithm_ < bound() ? exponent_ * (value + 1) : Value{}; }
+ private:
+  const PixelLobes<double>& lobes_;
+};
+
+// In powers of 2: expm1(e) = 2^y - 1, y = e / ln 2, and y = 2^z, z = x / ln 2 - log2(ln 2).
+template <>
+class LobeLanes<float> {
+ public:
+  explicit LobeLanes(const PixelLobes<float>& lobes) {
+    for (std::size_t lobe = 0; lobe < lobe_total; ++lobe) {
+      scale_[lobe] = lobes.gamma[lobe] * over_log_2;
+      offset_[lobe] = lobes.log_kappa[lobe] * over_log_2 + log2_over_log_2;
+    }
+  }
+
+  bool evaluate(std::size_t lobe, const float8::Float8& log_cosine, LobeValue<float8::Float8>& at) const {
+    using namespace float8;
+    constexpr float least_seen = -45;  // 2^-45 is nothing beside what materials reflect
+    const Float8 z = multiply_add(log_cosine, all(scale_[lobe]), all(offset_[lobe]));
+    if (!any_positive(z - least_seen)) return false;
+    const Float8 y = exp2(largest(least(z, all(bound)), all(-100)));
+    at.value = exp2m1(y);
+    at.slope = z < bound ? log_2 * y * (at.value + 1) : Float8{};
+    return true;
+  }
 
  private:
-  static Scalar bound() { return static_cast<Scalar>(2.48490664978800031); }  // log(largest_exponent)
+  static constexpr float log_2 = 0.69314718f, over_log_2 = 1.44269504f, log2_over_log_2 = 0.52876637f;
+  static constexpr float bound = 4.11372887f;  // log2(largest_exponent / ln 2)
 
-  Value logarithm_, exponent_;
+  std::array<float, lobe_total> scale_, offset_;
 };
 
 }  // namespace partwise

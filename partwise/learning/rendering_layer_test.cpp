@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "partwise/appearance/material/material_files.h"
 #include "partwise/appearance/rendering/reflectance_map.h"
 #include "partwise/base/error.h"
 #include "partwise/learning/disk_lookup.h"
@@ -105,21 +106,23 @@ TEST(RenderingLayer, MappedImagesAndTheirGradientsAreThoseOfLookupsInPlainTensor
 // Which takes its texels from a table of the material, good to half a percent.
 TEST(RenderingLayer, MappedImagesAreThoseOfAReflectanceMap) {
   const Batch batch(torch::kFloat, 20, 20, 16);
-  const int size = 48;
-  const at::Tensor images = mapped_images(batch.normals, batch.material, batch.light, size).detach();
-  for (int i = 0; i < 2; ++i) {
-    const at::Tensor coefficients = batch.material[i].detach().to(torch::kDouble);
-    const at::Tensor interleaved = batch.light[i].detach().permute({1, 2, 0}).contiguous();
-    Image radiance(32, 16, 3);
-    std::copy_n(interleaved.data_ptr<float>(), radiance.values.size(), radiance.values.data());
-    const Dsbrdf material(Eigen::Map<const DsbrdfCoefficients>(coefficients.data_ptr<double>()));
-    const ReflectanceMap map(material, light_samples(EnvironmentLight(std::move(radiance))), size);
-    const at::Tensor normals = batch.normals[i].detach().reshape({3, -1}).t().contiguous();
-    const at::Tensor colours = images[i].reshape({3, -1}).t().contiguous();
+  const at::Tensor normals = batch.normals[0].detach().reshape({3, -1}).t().contiguous();
+  const EnvironmentLight light = shipped_light("studio").resized(64, 32);
+  at::Tensor radiance = torch::empty({1, 32, 64, 3});
+  std::ranges::copy(light.radiance().values, radiance.data_ptr<float>());
+  for (const char* name : {"pink-felt", "yellow-plastic", "nickel"}) {
+    const Dsbrdf material = shipped_material(name).brdf;
+    DsbrdfCoefficients coefficients = material.coefficients();
+    const at::Tensor images =
+        mapped_images(batch.normals.detach().narrow(0, 0, 1),
+                      torch::from_blob(coefficients.data(), {1, dsbrdf_size}, torch::kDouble).to(torch::kFloat),
+                      radiance.permute({0, 3, 1, 2}), 48);
+    const at::Tensor colours = images[0].reshape({3, -1}).t().contiguous();
+    const ReflectanceMap map(material, light_samples(light), 48);
     for (std::int64_t k = 1; k < normals.size(0); ++k) {
       const Eigen::Vector3f expected = map.colour(Eigen::Map<const Eigen::Vector3f>(normals.data_ptr<float>() + 3 * k));
       const Eigen::Vector3f found = Eigen::Map<const Eigen::Vector3f>(colours.data_ptr<float>() + 3 * k);
-      EXPECT_LT((found - expected).norm(), 5e-3f * expected.norm()) << k;
+      EXPECT_LT((found - expected).norm(), 5e-3f * expected.norm()) << name << " pixel " << k;
     }
   }
 }
