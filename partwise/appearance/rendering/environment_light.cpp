@@ -51,14 +51,20 @@ EnvironmentLight::EnvironmentLight(Image radiance, const std::string& name) : ra
   }
 }
 
-Eigen::Vector3f EnvironmentLight::direction(int x, int y) const {
-  const double t = pi * (y + 0.5) / height(), p = 2 * pi * ((x + 0.5) / width() - 0.5);
-  return Eigen::Vector3d(std::sin(t) * std::sin(p), std::cos(t), -std::sin(t) * std::cos(p)).cast<float>();
+Eigen::Vector3d equirectangular_direction(int x, int y, int width, int height) {
+  const double t = pi * (y + 0.5) / height, p = 2 * pi * ((x + 0.5) / width - 0.5);
+  return {std::sin(t) * std::sin(p), std::cos(t), -std::sin(t) * std::cos(p)};
 }
 
-double EnvironmentLight::solid_angle(int y) const {
-  return 2 * pi / width() * (polar_cosine(y, height()) - polar_cosine(y + 1, height()));
+double equirectangular_solid_angle(int y, int width, int height) {
+  return 2 * pi / width * (polar_cosine(y, height) - polar_cosine(y + 1, height));
 }
+
+Eigen::Vector3f EnvironmentLight::direction(int x, int y) const {
+  return equirectangular_direction(x, y, width(), height()).cast<float>();
+}
+
+double EnvironmentLight::solid_angle(int y) const { return equirectangular_solid_angle(y, width(), height()); }
 
 Eigen::Vector3d EnvironmentLight::energy() const {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();

@@ -18,6 +18,10 @@
 
 namespace partwise {
 
+// The two formulas above, for a map of any size.
+Eigen::Vector3d equirectangular_direction(int x, int y, int width, int height);
+double equirectangular_solid_angle(int y, int width, int height);
+
 class EnvironmentLight {
  public:
   // Negative values, which processed photographs may hold, become 0. Messages call the map `name`.

@@ -25,6 +25,13 @@ TEST(Float8, ExponentialsMeetTheLibrarysToThreePartsInTenMillion) {
   expect_close([](Float8 x) { return expm1(-x); }, [](double x) { return std::expm1(-x); }, 1e-20f, 79, true, 3e-7);
 }
 
+TEST(Float8, PowersOfTwoMeetTheLibrarysToFourPartsInTenMillion) {
+  expect_close([](Float8 x) { return exp2(x); }, [](double x) { return std::exp2(x); }, -119, 119, false, 4e-7);
+  const auto minus_one = [](double x) { return std::expm1(x * std::log(2.0)); };
+  expect_close([](Float8 x) { return exp2m1(x); }, minus_one, 1e-20f, 119, true, 4e-7);
+  EXPECT_EQ(exp2m1(all(0))[2], 0);
+}
+
 TEST(Float8, LogarithmsMeetTheLibrarysToThreePartsInTenMillion) {
   expect_close([](Float8 x) { return log(x); }, [](double x) { return std::log(x); }, 1e-30f, 0.999f, true, 3e-7);
   expect_close([](Float8 x) { return log(x); }, [](double x) { return std::log(x); }, 1.001f, 1e30f, true, 3e-7);
@@ -41,6 +48,7 @@ TEST(Float8, AsksAndAddsOverAllLanes) {
   EXPECT_EQ(least(value, all(0))[5], 0);
   EXPECT_EQ(largest(value, all(0))[5], 3);
   EXPECT_EQ(to_int(value * 0.9f)[5], 2);
+  EXPECT_EQ(multiply_add(value, all(4), all(1))[5], 13);
 }
 
 }  // namespace

@@ -23,12 +23,16 @@ constexpr int channels = 3, lobes = dsbrdf_lobe_count;
 
 }  // namespace
 
+Eigen::Vector3d half_vector(const Eigen::Vector3d& to_light) {
+  const Eigen::Vector3d sum = to_light + Eigen::Vector3d::UnitZ();
+  const double length = sum.norm();
+  return length > 1e-6 ? Eigen::Vector3d(sum / length) : Eigen::Vector3d::UnitX();
+}
+
 Eigen::ArrayX3f half_vectors(const LightSamples& light) {
   Eigen::ArrayX3f half(light.size(), 3);
   for (Eigen::Index i = 0; i < light.size(); ++i) {
-    const Eigen::Vector3d sum = light.direction(i).cast<double>() + Eigen::Vector3d::UnitZ();
-    const double length = sum.norm();
-    half.row(i) = (length > 1e-6 ? Eigen::Vector3d(sum / length) : Eigen::Vector3d::UnitX()).cast<float>().transpose();
+    half.row(i) = half_vector(light.direction(i).cast<double>()).cast<float>().transpose();
   }
   return half;
 }

@@ -40,7 +40,8 @@ class LightSum {
   Eigen::Array<float, Eigen::Dynamic, 9> kappa_, gamma_;
 };
 
-// The half-vectors between the light's directions and +z; of light from straight behind, where there is none, +x.
+// The half-vector between a direction of light and +z; of light from straight behind, where there is none, +x.
+Eigen::Vector3d half_vector(const Eigen::Vector3d& to_light);
 Eigen::ArrayX3f half_vectors(const LightSamples& light);
 
 }  // namespace partwise

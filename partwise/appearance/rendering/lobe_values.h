@@ -1,4 +1,4 @@
-// The lobes of a Dsbrdf for eight half-vectors at a time, in single precision. Internal to this room.
+// The lobes of a Dsbrdf for eight half-vectors at a time, in single precision. Not installed.
 #pragma once
 
 #include <cmath>

@@ -11,6 +11,7 @@
 #include <cstdint>
 
 #include "partwise/appearance/rendering/halfway_table.h"
+#include "partwise/appearance/rendering/normal_disk.h"
 #include "partwise/base/error.h"
 
 namespace partwise {
@@ -19,36 +20,6 @@ namespace {
 using namespace float8;
 
 constexpr int together = 8;
-
-constexpr int margin = 1;  // texels beyond the rim on the axes
-
-int texels_across(int size) { return size - 1 - 2 * margin; }  // steps from rim to rim
-
-// Catmull and Rom's spline between the second and third of four values.
-std::array<float, 4> cubic_weights(float t) {
-  return {((2 - t) * t - 1) * t / 2, ((3 * t - 5) * t * t + 2) / 2, ((4 - 3 * t) * t + 1) * t / 2, (t - 1) * t * t / 2};
-}
-
-struct Texels {
-  std::vector<int> index;  // into the map, row by row
-  std::vector<Eigen::Vector3f> normals;
-};
-
-// All that lookups in the disk reach. Beyond the rim the disk's formula goes on to the other side of the sphere.
-Texels texels_of(int size) {
-  Texels texels;
-  const double spacing = 2.0 / texels_across(size), reach = 1 + 2 * std::sqrt(2.0) * spacing;
-  for (int row = 0; row < size; ++row) {
-    for (int column = 0; column < size; ++column) {
-      const double x = spacing * (column - margin) - 1, y = 1 - spacing * (row - margin), square = x * x + y * y;
-      if (square > reach * reach || square >= 2) continue;
-      const double scale = std::sqrt(2 - square);
-      texels.index.push_back(row * size + column);
-      texels.normals.push_back(Eigen::Vector3d(x * scale, y * scale, 1 - square).cast<float>());
-    }
-  }
-  return texels;
-}
 
 // Components of a block of normals, eight at a time; the last is repeated, with no use made of it.
 struct NormalBlock {
@@ -127,31 +98,28 @@ std::vector<Eigen::Vector3f> table_colours(const Dsbrdf& material, const LightSa
 
 ReflectanceMap::ReflectanceMap(const Brdf& material, const LightSamples& light, int size) : image_(size, size, 3) {
   PARTWISE_CHECK(size, >=, 8);
-  const Texels texels = texels_of(size);
-  normals_ = static_cast<int>(texels.normals.size());
+  const DiskTexels texels = disk_texels(size);
+  std::vector<Eigen::Vector3f> normals(texels.normals.size());
+  std::ranges::transform(texels.normals, normals.begin(),
+                         [](const auto& normal) { return normal.template cast<float>(); });
+  normals_ = static_cast<int>(normals.size());
   const auto* dsbrdf = dynamic_cast<const Dsbrdf*>(&material);
-  const std::vector<Eigen::Vector3f> colours = dsbrdf != nullptr ? table_colours(*dsbrdf, light, texels.normals)
-                                                                 : LightSum(material, light).colours(texels.normals);
+  const std::vector<Eigen::Vector3f> colours =
+      dsbrdf != nullptr ? table_colours(*dsbrdf, light, normals) : LightSum(material, light).colours(normals);
   for (std::size_t i = 0; i < colours.size(); ++i) {
     std::copy_n(colours[i].data(), 3, image_.values.data() + 3 * static_cast<std::size_t>(texels.index[i]));
   }
 }
 
 Eigen::Vector3f ReflectanceMap::colour(const Eigen::Vector3f& normal) const {
-  Eigen::Vector2f disk = normal.head<2>() / std::sqrt(1 + std::max(normal.z(), -0.5f));
-  disk /= std::max(disk.norm(), 1.0f);
-  const auto radius = static_cast<float>(texels_across(image_.width)) / 2;
-  const float across = margin + (1 + disk.x()) * radius, down = margin + (1 - disk.y()) * radius;
-  const int x = std::clamp(static_cast<int>(across), 1, image_.width - 3);
-  const int y = std::clamp(static_cast<int>(down), 1, image_.height - 3);
-  const std::array<float, 4> in_row = cubic_weights(across - static_cast<float>(x));
-  const std::array<float, 4> in_column = cubic_weights(down - static_cast<float>(y));
+  const DiskPlace<float> at(disk_point<float>(normal), image_.width);
+  const std::array<float, 4> in_row = cubic_weights(at.right), in_column = cubic_weights(at.below);
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   for (int j = 0; j < 4; ++j) {
     Eigen::Vector3f row = Eigen::Vector3f::Zero();
     for (int i = 0; i < 4; ++i) {
-      row +=
-          in_row[static_cast<std::size_t>(i)] * Eigen::Map<const Eigen::Vector3f>(image_.pixel(x + i - 1, y + j - 1));
+      row += in_row[static_cast<std::size_t>(i)] *
+             Eigen::Map<const Eigen::Vector3f>(image_.pixel(at.x + i - 1, at.y + j - 1));
     }
     sum += in_column[static_cast<std::size_t>(j)] * row;
   }

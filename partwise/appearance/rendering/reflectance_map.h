@@ -1,8 +1,7 @@
 // A material under a light as the colour of each normal: with light from far away and one constant view (+z), the sum
 // (3.2) depends on the normal alone, so it is taken once for a small map of normals and pixels are looked up.
 //
-// The map is the equal-area disk: the texel at p, x to the right and y up, stands for the normal with
-// p = (x, y) / sqrt(1 + z). The rim of the disk, z = 0, lies one texel inside the map's sides. Texels beyond the rim,
+// The map is the equal-area disk of normal_disk.h, its rim one texel inside the map's sides. Texels beyond the rim,
 // which lookups near it need, hold what their normals, turned away a little, would show: the light's cosine goes on,
 // and so does the material (a Dsbrdf by its formula, any other as it is seen at its rim). So lookups are alike
 // everywhere. They are bicubic (Catmull and Rom 1974): sharp lobes are as narrow as a few texels, and bilinear ones
