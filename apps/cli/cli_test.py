@@ -1064,9 +1064,9 @@ class Stopping(CommandLine):
                 terminal, end = pty.openpty()
             except OSError as error:  # a bare root has no terminals to give
                 self.skipTest(str(error))
-            subprocess.run(
+            process = subprocess.Popen(
                 [PROGRAM, "decompose", NOTCH, "--tolerance", "0.1", *arguments],
-                stdout=subprocess.DEVNULL, stderr=end, timeout=60, check=True,
+                stdout=subprocess.DEVNULL, stderr=end,
             )
             os.close(end)
             shown = b""
@@ -1076,6 +1076,7 @@ class Stopping(CommandLine):
             except OSError:
                 pass  # the other end is closed and everything is read
             os.close(terminal)
+            self.assertEqual(process.wait(timeout=60), 0)
             self.assertEqual(b"%" in shown, expected)
             if expected:
                 self.assertTrue(shown.endswith(b"\r\x1b[K"), "the line is wiped at the end")

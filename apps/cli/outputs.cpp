@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 // Absolute, without links or dots, so that equal places have equal names.
 fs::path final_place(const fs::path& path) {
   std::error_code error;
-  const fs::path followed = follow_links(fs::absolute(path));
+  fs::path followed = follow_links(fs::absolute(path));
   if (is_written_in_place(followed)) return followed;
   const fs::path place = fs::weakly_canonical(followed, error);
   return error ? followed.lexically_normal() : place;
@@ -147,10 +147,10 @@ void Outputs::commit() {
       (move.first == staged_file ? named : companions).push_back(move);
     }
   }
-  for (const auto& [from, to] : companions) {
-    const auto same = [&](const Entry& entry) { return entry.final == to; };
+  for (const Move& move : companions) {
+    const auto same = [&](const Entry& entry) { return entry.final == move.second; };
     if (std::ranges::any_of(entries_, same)) {
-      throw InputError(to.string(), "is asked for and also belongs to another output", "choose another name");
+      throw InputError(move.second.string(), "is asked for and also belongs to another output", "choose another name");
     }
   }
   for (const std::vector<Move>* moves : {&companions, &named}) {

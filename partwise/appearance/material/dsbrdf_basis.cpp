@@ -96,6 +96,7 @@ DsbrdfBasis principal_components(const std::vector<Dsbrdf>& materials, int compo
 
 Eigen::VectorXd fit_in_basis(const DsbrdfBasis& basis, const HalfAngleTable& measured, const Dsbrdf& fit) {
   std::vector<DsbrdfLoss> losses;
+  losses.reserve(3);
   for (int channel = 0; channel < 3; ++channel) losses.emplace_back(measured.values[channel], measured.cosine);
   const auto problem = [&](const Eigen::VectorXd& psi, bool derivatives) {
     NormalEquations sum{0.5 * kRarity * psi.squaredNorm(), kRarity * Eigen::MatrixXd::Identity(psi.size(), psi.size()),

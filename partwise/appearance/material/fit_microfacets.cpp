@@ -163,6 +163,7 @@ MicrofacetBrdf fit_microfacets(const HalfAngleTable& measured, LobeShape shape, 
   const Minimum& best = *std::ranges::min_element(found, {}, &Minimum::cost);
   const Eigen::VectorXd values = best.variables.array().exp();
   std::vector<MicrofacetLobe> result;
+  result.reserve(static_cast<std::size_t>(lobes));
   for (int lobe = 0; lobe < lobes; ++lobe) {
     result.push_back({std::min(values[first_of(lobe)], 1.0), values.segment<3>(first_of(lobe) + 1)});
   }

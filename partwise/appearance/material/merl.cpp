@@ -37,8 +37,9 @@ int merl_bin(const HalfAngles& angles) {
 }
 
 HalfAngles merl_centre(int bin) {
-  const int p = bin % merl_phi_d_bins, d = bin / merl_phi_d_bins % merl_theta_d_bins;
-  const double h = (bin / merl_phi_d_bins / merl_theta_d_bins + 0.5) / merl_theta_h_bins;
+  const int p = bin % merl_phi_d_bins, row = bin / merl_phi_d_bins;
+  const int d = row % merl_theta_d_bins, steps = row / merl_theta_d_bins;
+  const double h = (steps + 0.5) / merl_theta_h_bins;
   return {h * h * kQuarter, (d + 0.5) / merl_theta_d_bins * kQuarter, (p + 0.5) / merl_phi_d_bins * std::numbers::pi};
 }
 

@@ -86,6 +86,7 @@ SurfaceGraph surface_graph(const Mesh& input) {
 
   const std::vector<double> area = face_areas(graph.mesh);
   const double whole = std::accumulate(area.begin(), area.end(), 0.0);
+  if (!(whole > 0)) throw InputError("mesh", "no face has an area", "give a mesh with at least one proper triangle");
   graph.area = whole * sphere.radius * sphere.radius;
   graph.weight.assign(order.size(), 0);
   for (std::size_t f = 0; f < area.size(); ++f)
