@@ -126,12 +126,22 @@ std::vector<Eigen::Vector3f> table_colours(const Dsbrdf& material, const LightSa
 }  // namespace
 
 ReflectanceMap::ReflectanceMap(const Brdf& material, const LightSamples& light, int size) : image_(size, size, 3) {
-  PARTWISE_CHECK(size, >=, 8);
-  const Texels texels = texels_of(size);
-  normals_ = static_cast<int>(texels.normals.size());
   const auto* dsbrdf = dynamic_cast<const Dsbrdf*>(&material);
-  const std::vector<Eigen::Vector3f> colours = dsbrdf != nullptr ? table_colours(*dsbrdf, light, texels.normals)
-                                                                 : LightSum(material, light).colours(texels.normals);
+  fill([&](const std::vector<Eigen::Vector3f>& normals) {
+    return dsbrdf != nullptr ? table_colours(*dsbrdf, light, normals) : LightSum(material, light).colours(normals);
+  });
+}
+
+ReflectanceMap::ReflectanceMap(const PatchSum& sum, int size) : image_(size, size, 3) {
+  fill([&](const std::vector<Eigen::Vector3f>& normals) { return sum.colours(normals); });
+}
+
+template <typename Colours>
+void ReflectanceMap::fill(const Colours& colours_of) {
+  PARTWISE_CHECK(image_.width, >=, 8);
+  const Texels texels = texels_of(image_.width);
+  normals_ = static_cast<int>(texels.normals.size());
+  const std::vector<Eigen::Vector3f> colours = colours_of(texels.normals);
   for (std::size_t i = 0; i < colours.size(); ++i) {
     std::copy_n(colours[i].data(), 3, image_.values.data() + 3 * static_cast<std::size_t>(texels.index[i]));
   }

@@ -116,10 +116,7 @@ class SceneReader {
   }
 
   std::shared_ptr<const Brdf> named_material(const std::string& name) {
-    const std::string ending = std::filesystem::path(name).extension().string();
-    if (ending == ".json") return std::make_shared<Dsbrdf>(read_material(file(name)).brdf);
-    if (ending == ".binary" || ending == ".h5") return std::make_shared<MerlTable>(read_measured(file(name)));
-    return std::make_shared<Dsbrdf>(shipped_material(name).brdf);
+    return find_material(is_material_file(name) ? file(name).string() : name);
   }
 
   void read_light(const std::string& place, const json& value) {
