@@ -1,6 +1,7 @@
 // How near models come to measured materials: fits each file (.binary or .h5) with ours, with the models of others and
 // with few principal components, and prints a JSON object a line. With --models, writes the fits and the basis.
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -17,7 +18,8 @@
 #include "partwise/appearance/material/material_files.h"
 #include "partwise/appearance/material/microfacet_brdf.h"
 #include "partwise/appearance/material/neural_brdf.h"
-#include "partwise/appearance/rendering/light_sum.h"
+#include "partwise/appearance/rendering/image_formation.h"
+#include "partwise/appearance/rendering/material_ball.h"
 #include "partwise/imaging/image_metrics.h"
 #include "tool.h"
 
@@ -90,35 +92,13 @@ std::unique_ptr<Brdf> measured_brdf(const std::string& file) {
   return std::make_unique<MerlTable>(read_merl(file));
 }
 
-// A ball seen along -z from afar: the pixels that show it, and their normals.
-struct Ball {
-  Mask mask = Mask(kBall, kBall, 1);
-  std::vector<std::size_t> pixels;
-  std::vector<Eigen::Vector3f> normals;
-
-  Ball() {
-    for (int y = 0; y < kBall; ++y) {
-      for (int x = 0; x < kBall; ++x) {
-        const float a = 2 * (static_cast<float>(x) + 0.5f) / kBall - 1,
-                    b = 1 - 2 * (static_cast<float>(y) + 0.5f) / kBall;
-        const float rest = 1 - a * a - b * b;
-        if (!(rest > 0)) continue;
-        *mask.pixel(x, y) = 1;
-        pixels.push_back(static_cast<std::size_t>(y * kBall + x));
-        normals.emplace_back(a, b, std::sqrt(rest));
-      }
-    }
-  }
-};
-
 // One image a light, by the exact sum.
-std::vector<Image> balls(const Ball& ball, const Brdf& material, const std::vector<LightSamples>& lights) {
+std::vector<Image> balls(const GBuffer& ball, const Brdf& material, const std::vector<LightSamples>& lights) {
   std::vector<Image> images;
   for (const LightSamples& light : lights) {
-    const std::vector<Eigen::Vector3f> colours = LightSum(material, light).colours(ball.normals);
-    Image& image = images.emplace_back(kBall, kBall, 3);
-    for (std::size_t i = 0; i < colours.size(); ++i)
-      std::copy_n(colours[i].data(), 3, &image.values[3 * ball.pixels[i]]);
+    const LightSum sum(material, light);
+    const std::array sums{&sum};
+    images.push_back(exact_image(ball, sums));
   }
   return images;
 }
@@ -142,7 +122,8 @@ void measure(const Options& options) {
   std::vector<LightSamples> lights;
   for (const std::string& file : options.lights)
     lights.push_back(light_samples(read_light(file).resized(2 * options.rows, options.rows)));
-  const Ball ball;
+  const GBuffer ball = ball_view(kBall, 1);
+  const Mask mask = ball.mask_image();
   for (const std::string& file : options.files) {
     const auto start = std::chrono::steady_clock::now();
     const HalfAngleTable measured = mean_over_phi(read_measured(file));
@@ -158,7 +139,7 @@ void measure(const Options& options) {
     for (const auto& [name, brdf] : models) {
       line["log_rmse"][name] = log_rmse(measured, *brdf);
       if (!lights.empty()) {
-        const auto [psnr, ssim] = rendered_error(ball.mask, truth, balls(ball, *brdf, lights));
+        const auto [psnr, ssim] = rendered_error(mask, truth, balls(ball, *brdf, lights));
         line["psnr"][name] = psnr;
         line["ssim"][name] = ssim;
       }

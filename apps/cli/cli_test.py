@@ -20,6 +20,7 @@ from pathlib import Path
 
 PROGRAM = ""
 NOTCH = Path(__file__).resolve().parents[2] / "examples" / "notch.obj"
+DATA = NOTCH.parents[1] / "data"
 
 
 def glb_json(file):
@@ -944,6 +945,54 @@ class Material(CommandLine):
         for wrong in ([], ["fit"], ["fit", "short.binary"], ["polish"], ["fit", "short.binary", "-o", "out.png"]):
             self.assert_refused(self.run_program("material", *wrong), 2, "material --help")
         self.assert_files("short.binary", "text.h5")
+
+    def ball(self, name, *arguments, output="ball.png"):
+        return self.run_program("material", "ball", name, "-o", output, "--size", 48, *arguments)
+
+    def test_a_ball_is_round_and_stands_on_clear_ground(self):
+        result = self.ball("red-fabric", "--json", "-")
+        self.assert_done(result)
+        report = json.loads(result.stdout)
+        self.assertEqual((report["name"], report["light"], report["width"], report["height"]), ("red-fabric", "venice", 48, 48))
+        self.assertEqual(report["files"], {"o": "ball.png"})
+        self.assertEqual(sorted(report["seconds"]), ["read", "render", "total", "write"])
+        picture = Picture(self.folder / "ball.png")
+        self.assertEqual((picture.width, picture.height), (48, 48))
+        pixels = [[row[4 * x:4 * x + 4] for x in range(48)] for row in picture.rows]
+        for corner in (pixels[0][0], pixels[0][47], pixels[47][0], pixels[47][47]):
+            self.assertEqual(corner[3], 0)
+        alpha = [pixel[3] / 255 for row in pixels for pixel in row]
+        self.assertAlmostEqual(sum(alpha) / 48 ** 2, 3.14159 / 4, delta=0.003)
+        self.assertTrue(any(0.1 < each < 0.9 for each in alpha))  # no stairs at its rim
+        red, green, blue = (sum(pixel[k] for row in pixels for pixel in row) for k in range(3))
+        self.assertGreater(red, 1.5 * max(green, blue))
+
+    def test_balls_of_files_under_lights_of_files(self):
+        chrome, studio = DATA.parent / "models" / "materials" / "chrome.json", DATA / "lights" / "studio.exr"
+        made = []
+        for name, light in (("chrome", "studio"), (chrome, studio)):
+            for threads in (1, 3):
+                self.assert_done(self.ball(name, "--light", light, "--threads", threads))
+                made.append((self.folder / "ball.png").read_bytes())
+        self.assertEqual(len(set(made)), 1)
+        self.assert_done(self.ball("chrome", output="ball.exr"))
+        self.assertEqual((self.folder / "ball.exr").read_bytes()[:4], b"v/1\x01")
+        self.write_table("matte.binary", (0.9, 0.1, 0.05))
+        self.assert_done(self.run_program("material", "ball", "matte.binary", "-o", "ball.png", "--size", 8))
+        self.assert_refused(self.ball("chrome", "--light", "ball.exr", output="ball.exr"), 2, "ball.exr")
+
+    def test_a_ball_of_what_is_not_there_is_one_line(self):
+        self.assert_refused(self.ball("chrom"), 1, "chrom", "did you mean chrome?", "material list")
+        self.assert_refused(self.ball("fabric"), 1, "did you mean", "-fabric")
+        self.assert_refused(self.ball("unobtainium"), 1, "none of those that ship; partwise material list names all")
+        self.assert_refused(self.ball("none.json"), 1, "none.json", "does not exist")
+        self.assert_refused(self.ball("chrome", "--light", "moon"), 1, "moon", "studio")
+        self.assert_refused(self.ball("chrome", "--light", "none.exr"), 1, "none.exr")
+        for wrong in (["--size", 0], ["--size", "big"], ["--light", ""]):
+            self.assert_refused(self.ball("chrome", *wrong), 2, "material --help")
+        self.assert_refused(self.ball("chrome", output="ball.gif"), 2, ".png")
+        self.assert_refused(self.run_program("material", "ball", "chrome"), 2, "-o")
+        self.assert_files()
 
     def test_a_table_of_nothing_is_refused(self):
         self.write_table("black.binary", (-1, -1, -1))

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <utility>
 
 #include "partwise/appearance/material/neural_brdf.h"
@@ -24,6 +25,35 @@ constexpr const char* kRemedy = "give a file that partwise material fit has writ
 const char* curve_name(int lobe, DsbrdfCurve curve) {
   if (curve == DsbrdfCurve::kappa) return "log_kappa";
   return lobe == 0 ? "gamma" : "log_gamma";
+}
+
+// Letters to change, add or leave out to make one word of the other (Levenshtein).
+std::size_t letters_between(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t corner = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t changed = corner + (a[i] == b[j] ? 0 : 1);
+      corner = std::exchange(row[j + 1], std::min({changed, row[j] + 1, row[j + 1] + 1}));
+    }
+  }
+  return row.back();
+}
+
+// At most four: those a third of whose letters or fewer differ, the nearest first, then those that contain the name.
+std::vector<std::string> names_like(const std::string& name, std::vector<std::string> names) {
+  constexpr std::size_t most = 4, least_letters = 3;
+  const auto distance = [&](const std::string& other) {
+    const std::size_t letters = letters_between(name, other);
+    if (3 * letters <= other.size()) return letters;
+    const bool contained = name.size() >= least_letters && other.find(name) != std::string::npos;
+    return contained ? name.size() + other.size() : std::string::npos;
+  };
+  std::erase_if(names, [&](const std::string& other) { return distance(other) == std::string::npos; });
+  std::ranges::stable_sort(names, {}, distance);
+  names.resize(std::min(names.size(), most));
+  return names;
 }
 
 std::string number(double value) { return fmt::format("{:.6g}", value); }
@@ -178,9 +208,24 @@ std::vector<std::string> shipped_materials() {
 MaterialFile shipped_material(const std::string& name) {
   const std::vector<std::string> names = shipped_materials();
   if (!std::ranges::binary_search(names, name)) {
-    throw InputError("material " + name, "is none of those that ship", "choose one that partwise material list names");
+    const std::vector<std::string> like = names_like(name, names);
+    throw InputError(fmt::format("material '{}'", name), "is none of those that ship",
+                     fmt::format("{}partwise material list names all",
+                                 like.empty() ? "" : fmt::format("did you mean {}? ", fmt::join(like, ", "))));
   }
   return read_material(shared_file(std::filesystem::path("models/materials") / (name + ".json")));
+}
+
+bool is_material_file(const std::string& name) {
+  const std::filesystem::path ending = std::filesystem::path(name).extension();
+  return ending == ".json" || ending == ".binary" || ending == ".h5";
+}
+
+std::shared_ptr<const Brdf> find_material(const std::string& name, const std::filesystem::path& folder) {
+  if (!is_material_file(name)) return std::make_shared<Dsbrdf>(shipped_material(name).brdf);
+  const std::filesystem::path path = folder / name;
+  if (path.extension() == ".json") return std::make_shared<Dsbrdf>(read_material(path).brdf);
+  return std::make_shared<MerlTable>(read_measured(path));
 }
 
 std::vector<std::string> test_materials() {
@@ -190,17 +235,5 @@ std::vector<std::string> test_materials() {
 }
 
 DsbrdfBasis shipped_basis() { return read_basis(shared_file("models/material_basis.json")); }
-
-bool is_material_file(const std::string& name) {
-  const std::string ending = std::filesystem::path(name).extension().string();
-  return ending == ".json" || ending == ".binary" || ending == ".h5";
-}
-
-std::shared_ptr<const Brdf> named_material(const std::string& name, const std::filesystem::path& folder) {
-  if (!is_material_file(name)) return std::make_shared<Dsbrdf>(shipped_material(name).brdf);
-  const std::filesystem::path file = folder / name;
-  if (file.extension() == ".json") return std::make_shared<Dsbrdf>(read_material(file).brdf);
-  return std::make_shared<MerlTable>(read_measured(file));
-}
 
 }  // namespace partwise

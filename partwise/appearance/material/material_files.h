@@ -37,15 +37,16 @@ DsbrdfBasis read_basis(const std::filesystem::path& path);
 // A measured material: a .binary of MERL as it stands, a Neural-BRDF network (.h5) tabulated on the same grid.
 MerlTable read_measured(const std::filesystem::path& path);
 
+// A material of any kind: a shipped one by its name, or a file, fitted (.json) or measured (.binary, .h5). Files are
+// named relative to `folder`. Errors: those of reading; for an unknown name one that gives names like it.
+bool is_material_file(const std::string& name);
+std::shared_ptr<const Brdf> find_material(const std::string& name, const std::filesystem::path& folder = {});
+
 // What ships in models/: fits of the hundred MERL materials, sorted by name; the twenty that experiments keep for
 // tests; the basis made from the other eighty.
 std::vector<std::string> shipped_materials();
 MaterialFile shipped_material(const std::string& name);
 std::vector<std::string> test_materials();
 DsbrdfBasis shipped_basis();
-
-// As people name a material: a shipped one, or a file (.json, .binary, .h5) relative to `folder`.
-bool is_material_file(const std::string& name);
-std::shared_ptr<const Brdf> named_material(const std::string& name, const std::filesystem::path& folder);
 
 }  // namespace partwise

@@ -12,6 +12,7 @@
 #include <map>
 
 #include "partwise/appearance/corner_normals.h"
+#include "partwise/appearance/rendering/pixel_samples.h"
 #include "partwise/base/error.h"
 #include "partwise/geometry/ray_scene.h"
 
@@ -34,15 +35,6 @@ CameraRay camera_ray(const Camera& camera, double aspect, double across, double 
     return {position + camera.axes.transpose() * Eigen::Vector3d(x, y, 0), -camera.axes.row(2).transpose()};
   }
   return {position, camera.axes.transpose() * Eigen::Vector3d(x, y, -1)};
-}
-
-// Hammersley's set, moved into the middle of its cells.
-Eigen::Vector2d sample_place(int index, int count) {
-  double reversed = 0, digit = 0.5;
-  int cells = 1;
-  while (cells < count) cells *= 2;
-  for (int i = index; i > 0; i /= 2, digit /= 2) reversed += (i & 1) * digit;
-  return {(index + 0.5) / count, reversed + 0.5 / cells};
 }
 
 CameraRay sample_ray(const Camera& camera, const RasterSize& size, std::size_t sample) {

@@ -57,4 +57,19 @@ void HalfwayTable::row(double theta_d, const Eigen::Vector3f& factor, Row& resul
   }
 }
 
+Eigen::Vector3f HalfwayTable::value(float cos_theta_d, float s) const {
+  const float across = std::acos(std::clamp(cos_theta_d, 0.0f, 1.0f)) * static_cast<float>((rows - 1) / quarter);
+  const int row = std::min(static_cast<int>(across), rows - 2);
+  const float down = place(s);
+  const int whole = std::min(static_cast<int>(down), places - 2);
+  const float a = across - static_cast<float>(row), b = down - static_cast<float>(whole);
+  const auto along = [&](int at) -> Eigen::Array4f {
+    const Eigen::Map<const Eigen::Array4f> low(table_[static_cast<std::size_t>(at)].data() + 4 * whole);
+    const Eigen::Map<const Eigen::Array4f> high(table_[static_cast<std::size_t>(at)].data() + 4 * whole + 4);
+    return low + b * (high - low);
+  };
+  const Eigen::Array4f below = along(row), above = along(row + 1);
+  return (below + a * (above - below)).head<3>();
+}
+
 }  // namespace partwise

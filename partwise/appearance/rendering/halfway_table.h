@@ -10,6 +10,8 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <bit>
+#include <cstdint>
 #include <vector>
 
 #include "partwise/appearance/material/dsbrdf.h"
@@ -33,12 +35,25 @@ class HalfwayTable {
   // The row at theta_d, each channel times `factor`.
   void row(double theta_d, const Eigen::Vector3f& factor, Row& result) const;
 
+  // At one theta_d, by its cosine, and one s = 1 - n.h, in [0, 1].
+  Eigen::Vector3f value(float cos_theta_d, float s) const;
+
   // Where s = 1 - n.h, in [0, 1], lies in a row: whole part and fraction.
   static float8::Float8 place(float8::Float8 s) {
     using namespace float8;
     constexpr float unit = 1.0f / (1 << (23 - mantissa_bits));
     const Float8 other = 1.0f - s;
     const Float8 near = unit * to_float(bits(largest(least(s, other), all(0)) + offset) - first_bits());
+    return s < other ? near : static_cast<float>(places - 1) - near;
+  }
+
+  static float place(float s) {
+    constexpr float unit = 1.0f / (1 << (23 - mantissa_bits));
+    const float other = 1 - s;
+    const float least = s < other ? s : other;
+    const auto steps =
+        std::bit_cast<std::int32_t>((least > 0 ? least : 0) + offset) - std::bit_cast<std::int32_t>(offset);
+    const float near = unit * static_cast<float>(steps);
     return s < other ? near : static_cast<float>(places - 1) - near;
   }
 

@@ -97,15 +97,25 @@ std::vector<Eigen::Vector3f> table_colours(const Dsbrdf& material, const LightSa
 }  // namespace
 
 ReflectanceMap::ReflectanceMap(const Brdf& material, const LightSamples& light, int size) : image_(size, size, 3) {
-  PARTWISE_CHECK(size, >=, 8);
-  const DiskTexels texels = disk_texels(size);
+  const auto* dsbrdf = dynamic_cast<const Dsbrdf*>(&material);
+  fill([&](const std::vector<Eigen::Vector3f>& normals) {
+    return dsbrdf != nullptr ? table_colours(*dsbrdf, light, normals) : LightSum(material, light).colours(normals);
+  });
+}
+
+ReflectanceMap::ReflectanceMap(const PatchSum& sum, int size) : image_(size, size, 3) {
+  fill([&](const std::vector<Eigen::Vector3f>& normals) { return sum.colours(normals); });
+}
+
+template <typename Colours>
+void ReflectanceMap::fill(const Colours& colours_of) {
+  PARTWISE_CHECK(image_.width, >=, 8);
+  const DiskTexels texels = disk_texels(image_.width);
   std::vector<Eigen::Vector3f> normals(texels.normals.size());
   std::ranges::transform(texels.normals, normals.begin(),
                          [](const auto& normal) { return normal.template cast<float>(); });
   normals_ = static_cast<int>(normals.size());
-  const auto* dsbrdf = dynamic_cast<const Dsbrdf*>(&material);
-  const std::vector<Eigen::Vector3f> colours =
-      dsbrdf != nullptr ? table_colours(*dsbrdf, light, normals) : LightSum(material, light).colours(normals);
+  const std::vector<Eigen::Vector3f> colours = colours_of(normals);
   for (std::size_t i = 0; i < colours.size(); ++i) {
     std::copy_n(colours[i].data(), 3, image_.values.data() + 3 * static_cast<std::size_t>(texels.index[i]));
   }

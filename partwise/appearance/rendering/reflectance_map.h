@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "partwise/appearance/rendering/light_sum.h"
+#include "partwise/appearance/rendering/light_tree.h"
 #include "partwise/imaging/image.h"
 
 namespace partwise {
@@ -24,6 +25,8 @@ namespace partwise {
 class ReflectanceMap {
  public:
   ReflectanceMap(const Brdf& material, const LightSamples& light, int size = 64);
+  // By patches of light, for fine maps of light and mirror-like materials.
+  ReflectanceMap(const PatchSum& sum, int size);
 
   // Of a unit normal in camera space; one that turns away from the viewer counts as the rim beside it.
   Eigen::Vector3f colour(const Eigen::Vector3f& normal) const;
@@ -34,6 +37,9 @@ class ReflectanceMap {
   int normals() const { return normals_; }
 
  private:
+  template <typename Colours>
+  void fill(const Colours& colours_of);
+
   Image image_;
   int normals_ = 0;
 };

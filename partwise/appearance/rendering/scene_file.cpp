@@ -124,7 +124,7 @@ class SceneReader {
     if (value.is_string() && !value.get<std::string>().empty()) {
       const std::string text = value.get<std::string>();
       if (is_material_file(text)) file(text);
-      return named_material(text, folder_);
+      return find_material(text, folder_);
     }
     if (!value.is_object()) {
       fields.refuse(name, "is neither a name nor an object",

@@ -55,7 +55,7 @@ struct DatasetImages::State {
         shapes(config.shapes.size(), [this](int i) { return shape(i); }),
         materials(config.materials.size(),
                   [this](int i) {
-                    return named_material(config.materials[static_cast<std::size_t>(i)], config.folder);
+                    return find_material(config.materials[static_cast<std::size_t>(i)], config.folder);
                   }),
         lights(config.lights.size(), [this](int i) {
           return named_light(config.lights[static_cast<std::size_t>(i)], config.folder)
