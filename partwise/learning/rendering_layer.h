@@ -5,6 +5,8 @@
 // map_size x map_size normals an image and looks pixels up (disk_lookup.h): its cost grows with the map and the light
 // and hardly with the picture, and it differs from the exact form where highlights are narrower than its texels.
 // bench/layer_bench.py prints both. Gradients are analytic and first order: they have no gradients of their own.
+// Of those to normals the part along the normal means nothing, and the two forms differ in it: a network's last layer,
+// which makes unit vectors, drops it.
 //
 // Shapes: normals B x 3 x H x W, unit vectors in camera space (x right, y up, z towards the viewer), zero where there
 // is background; material B x 108, the coefficients of a Dsbrdf; light B x 3 x h x w, an equirectangular map of linear
