@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "page_style.h"
 #include "partwise/imaging/png.h"
 
 namespace demo {
@@ -26,6 +27,25 @@ std::string base64(std::string_view bytes) {
 }
 
 }  // namespace
+
+std::string page_head(std::string_view title) {
+  return fmt::format(
+      R"(<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<title>{}</title>
+<link rel="icon" href="data:,">
+<style>
+{}</style>
+</head>
+<body>
+<main>
+)",
+      title, page_style);
+}
 
 std::string figure(const Picture& picture, std::string_view loading) {
   return fmt::format(

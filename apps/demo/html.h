@@ -21,6 +21,9 @@ Picture make_picture(const partwise::Image& image, std::string caption, std::str
 // Of an SVG drawing, which must say its width and height.
 Picture make_drawing(const std::string& svg, std::string caption, std::string description);
 
+// From the doctype to the opening of main.
+std::string page_head(std::string_view title);
+
 std::string figure(const Picture& picture, std::string_view loading);
 std::string figures(const std::vector<Picture>& pictures, std::string_view css_class);
 

@@ -1,16 +1,19 @@
 // partwise_demo OUT_DIR: decomposes the shipped models, draws them, lets copies of them fall into a heap, and writes
-// OUT_DIR/index.html, a self-contained page, and OUT_DIR/hero.png: four models, their parts and hulls in one picture.
+// OUT_DIR/index.html and OUT_DIR/materials.html, self-contained pages, and OUT_DIR/hero.png: four models, their parts
+// and hulls in one picture.
 
 #include <fmt/format.h>
 #include <tbb/info.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <future>
 
+#include "materials.h"
 #include "outlines.h"
 #include "page.h"
 #include "partwise/base/atomic_file.h"
@@ -135,11 +138,20 @@ void run(const std::filesystem::path& folder) {
   shown.reserve(models.size());
   for (std::size_t i = 0; i < models.size(); ++i) shown.push_back({&models[i], &decomposed[i].mesh});
   story.surfaces = demo::tell_surfaces(shown);
+  show("putting materials on");
+  std::vector<demo::WornModel> worn;
+  for (std::size_t i = 0; i < models.size(); ++i)
+    worn.push_back({std::string(models[i].name), decomposed[i].parts.mesh, decomposed[i].parts.mesh_labels});
+  const auto named = [&](std::string_view name) {
+    return *std::ranges::find_if(worn, [&](const demo::WornModel& model) { return model.name == name; });
+  };
+  const demo::MaterialsStory materials = demo::tell_materials(worn, named("Chair"), named("Toy car"));
   show("simulating and drawing the heap");
   story.pile = tell_pile(settings, pile.get());
   story.seconds = seconds_since(start);
   write_hero(folder / "hero.png", hero);
   partwise::write_file(folder / "index.html", demo::make_page(story));
+  partwise::write_file(folder / "materials.html", demo::make_materials_page(materials));
   show("");
   fmt::print("{} models and a heap of {} in {:.1f} s: {}\n", models.size(), settings.bodies, story.seconds,
              (folder / "index.html").string());

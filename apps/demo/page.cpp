@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include "html.h"
-#include "page_style.h"
 #include "page_surfaces.h"
 
 namespace demo {
@@ -41,6 +40,7 @@ std::string opening(const Story& story) {
 <p class="lead">Physics engines, planners and robots want convex pieces; people model horses, chairs and coffee cups.
 Partwise finds the few parts whose convex hulls stand in for the shape, within one tolerance that you choose,
 and certifies that they do.</p>
+<p><a href="materials.html">Parts in real materials, under real light</a></p>
 </header>
 )";
   html += "<div class=\"hero\">\n" + figure(story.pile.heap, "eager") + "</div>\n<dl class=\"facts large\">\n";
@@ -164,18 +164,7 @@ std::string closing(const Story& story) {
 }  // namespace
 
 std::string make_page(const Story& story) {
-  std::string html = R"(<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light dark">
-<title>Partwise: shapes into nearly convex parts</title>
-<link rel="icon" href="data:,">
-<style>
-)";
-  html += page_style;
-  html += "</style>\n</head>\n<body>\n<main>\n";
+  std::string html = page_head("Partwise: shapes into nearly convex parts");
   html += opening(story) + models_section(story) + pile_section(story.pile) + surfaces_section(story.surfaces) +
           outlines_section(story.outlines) + use_section();
   return html + "</main>\n" + closing(story) + "</body>\n</html>\n";

@@ -1,7 +1,7 @@
 """Opens the demo's page in headless Chromium through WebDriver (https://www.w3.org/TR/webdriver2/) and looks at it as a
 reader would: at 390 and at 1440 pixels, in light and in dark.
 
-usage: page_test.py CHROMEDRIVER CHROMIUM PAGE
+usage: page_test.py CHROMEDRIVER CHROMIUM PAGE MATERIALS_PAGE
 """
 
 import json
@@ -13,7 +13,7 @@ import unittest
 import urllib.error
 import urllib.request
 
-driver_path, chromium_path, page_path = (pathlib.Path(argument) for argument in sys.argv[1:4])
+driver_path, chromium_path, page_path, materials_path = (pathlib.Path(argument) for argument in sys.argv[1:5])
 
 # What the page says about itself once it is laid out.
 INSPECT = """
@@ -40,6 +40,9 @@ return {
       table.getBoundingClientRect().right > table.closest('main').getBoundingClientRect().right - 15).length,
   facts: [...document.querySelectorAll('dd, td')].map(element => element.textContent),
   title: document.title,
+  links: [...document.querySelectorAll('a')].map(link => link.getAttribute('href')),
+  balls: document.querySelectorAll('.wall img').length,
+  samples: document.querySelectorAll('.samples img').length,
   paper: getComputedStyle(document.documentElement).backgroundColor,
   ink: getComputedStyle(document.documentElement).color,
 };
@@ -77,10 +80,10 @@ class Browser:
     def chromium(self, command, **parameters):
         return self.call("POST", "/goog/cdp/execute", {"cmd": command, "params": parameters})
 
-    def look(self, width, scheme):
+    def look(self, width, scheme, page=page_path):
         self.chromium("Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=1, mobile=width < 600)
         self.chromium("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
-        self.call("POST", "/url", {"url": page_path.resolve().as_uri()})
+        self.call("POST", "/url", {"url": page.resolve().as_uri()})
         deadline = time.monotonic() + 30
         while True:
             seen = self.call("POST", "/execute/sync", {"script": INSPECT, "args": []})
@@ -145,8 +148,23 @@ class Page(unittest.TestCase):
             else:
                 self.assertGreater(int(tests.replace("\u202f", "")), 1000, name)
 
-    def test_one_file_of_bearable_size(self):
-        self.assertLess(page_path.stat().st_size, 8 * 1024 * 1024)
+    def test_the_page_of_materials(self):
+        self.assertIn("materials.html", self.browser.look(1440, "light")["links"])
+        for width in (390, 1440):
+            for scheme in ("light", "dark"):
+                with self.subTest(width=width, scheme=scheme):
+                    seen = self.browser.look(width, scheme, materials_path)
+                    self.assertEqual((seen["overflow"], seen["outside"], seen["missing"]), (0, [], []))
+                    self.assertEqual((seen["unnamed"], seen["foreign"]), (0, 0))
+                    self.assertEqual((seen["balls"], seen["samples"], seen["images"]), (100, 60, 176))
+                    self.assertIn("index.html", seen["links"])
+                    dark = brightness(seen["paper"]) < brightness(seen["ink"])
+                    self.assertEqual(dark, scheme == "dark")
+                    self.assertEqual(self.browser.messages(), [])
+
+    def test_files_of_bearable_size(self):
+        for path in (page_path, materials_path):
+            self.assertLess(path.stat().st_size, 8 * 1024 * 1024, path)
 
 
 if __name__ == "__main__":

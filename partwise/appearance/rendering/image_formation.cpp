@@ -50,6 +50,17 @@ Image mapped_image(const GBuffer& seen, std::span<const ReflectanceMap* const> m
   });
 }
 
+Image on_clear_ground(const Image& formed, const Image& mask) {
+  Image image(formed.width, formed.height, 4);
+  for (std::size_t pixel = 0; pixel < mask.values.size(); ++pixel) {
+    const float covered = mask.values[pixel];
+    float* out = &image.values[4 * pixel];
+    out[3] = covered;
+    for (std::size_t k = 0; covered > 0 && k < 3; ++k) out[k] = formed.values[3 * pixel + k] / covered;
+  }
+  return image;
+}
+
 Image shadowed_image(const GBuffer& seen, std::span<const LightSum* const> sums, const RenderScene& scene,
                      const Camera& camera, const LightSamples& light) {
   return form_image(seen, sums.size(), [&](std::size_t sample, const Eigen::Vector3f& normal) {

@@ -22,4 +22,7 @@ Image mapped_image(const GBuffer& seen, std::span<const ReflectanceMap* const> m
 Image shadowed_image(const GBuffer& seen, std::span<const LightSum* const> sums, const RenderScene& scene,
                      const Camera& camera, const LightSamples& light);
 
+// A formed image with its G-buffer's mask as straight alpha: edges keep the colour of what they are edges of.
+Image on_clear_ground(const Image& formed, const Image& mask);
+
 }  // namespace partwise

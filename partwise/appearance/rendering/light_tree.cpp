@@ -115,6 +115,13 @@ LightTree::LightTree(const EnvironmentLight& light, const Eigen::Matrix3d& rotat
     patches_[i].first = first;
     patches_[i].children = static_cast<int>(patches_.size()) - first;
   }
+  for (std::size_t i = patches_.size(); i-- > 0;) {  // children stand behind their parents
+    LightPatch& patch = patches_[i];
+    for (int k = patch.first; k < patch.first + patch.children; ++k) {
+      const LightPatch& child = patches_[static_cast<std::size_t>(k)];
+      patch.radius = std::max(patch.radius, (child.direction - patch.direction).norm() + child.radius);
+    }
+  }
 }
 
 PatchSum::PatchSum(const Brdf& material, const LightTree& light, double fineness)
@@ -133,8 +140,8 @@ PatchSum& PatchSum::operator=(PatchSum&&) noexcept = default;
 // visit(patch, cosine) of those that are taken as a whole.
 template <typename Visit>
 void PatchSum::visit_cut(const Eigen::Vector3f& normal, const Visit& visit) const {
-  constexpr float least_slope = 0.05f;          // of the half-vector against light from nearly straight behind
-  constexpr float horizon = 2, narrow = 0.02f;  // spreads from the horizon; patches that need no care there
+  constexpr float least_slope = 0.05f;  // of the half-vector against light from nearly straight behind
+  constexpr float narrow = 0.03f;       // patches that need no care at the horizon
   const std::vector<LightPatch>& patches = light_->patches();
   std::array<int, 256> waiting;  // three more a level than are taken off
   for (int root = 0; root < light_->largest(); ++root) {
@@ -143,11 +150,11 @@ void PatchSum::visit_cut(const Eigen::Vector3f& normal, const Visit& visit) cons
     while (count > 0) {
       const LightPatch& patch = patches[static_cast<std::size_t>(waiting[--count])];
       const float cosine = normal.dot(patch.direction);
-      if (cosine <= -horizon * patch.spread) continue;
+      if (cosine <= -patch.radius) continue;
       if (patch.children > 0) {
-        const float turned = patch.spread / (2 * std::max(patch.half.z(), least_slope));
+        const float turned = patch.radius / (2 * std::max(patch.half.z(), least_slope));
         const float reach = fineness_ * std::max((normal - patch.half).norm(), sharpest_);
-        if (turned > reach || (patch.spread > narrow && cosine < horizon * patch.spread)) {
+        if (turned > reach || (patch.radius > narrow && cosine < patch.radius)) {
           for (int k = patch.children - 1; k >= 0; --k) waiting[count++] = patch.first + k;
           continue;
         }

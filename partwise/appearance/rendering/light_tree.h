@@ -4,7 +4,7 @@
 // "Lightcuts: a scalable approach to illumination").
 //
 // A patch stands for its pixels by their sum and their mean direction, both weighted by what they bring, so that what
-// is left out is of second order in its spread. It is taken as a whole where, seen from the half-vector, its spread is
+// is left out is of second order in its spread. It is taken as a whole where, seen from the half-vector, its radius is
 // less than `fineness` of the distance to the normal; 0 gives the sum over all pixels. The same bytes for any number of
 // threads. Linear RGB; directions in camera space, the viewer at +z. Errors: CheckFailed for a negative fineness.
 #pragma once
@@ -25,7 +25,9 @@ class HalfwayTable;
 struct LightPatch {
   Eigen::Vector3f direction, half;  // half: the half-vector with the viewer
   Eigen::Vector3f radiance;         // times solid angle
-  float spread = 0;             // root mean square distance of its pixels from `direction`, weighted; a pixel's is 0
+  // From `direction`, 0 for a pixel: the root mean square distance of its pixels, weighted by what they bring, and a
+  // bound on that of any. A patch with the sun in it has next to no spread, and yet sky all over its radius.
+  float spread = 0, radius = 0;
   int first = 0, children = 0;  // a patch's children stand one after the other
 };
 
@@ -45,7 +47,7 @@ class LightTree {
 class PatchSum {
  public:
   // Both must outlive this.
-  PatchSum(const Brdf& material, const LightTree& light, double fineness = 0.2);
+  PatchSum(const Brdf& material, const LightTree& light, double fineness = 0.35);
   ~PatchSum();
   PatchSum(PatchSum&&) noexcept;
   PatchSum& operator=(PatchSum&&) noexcept;

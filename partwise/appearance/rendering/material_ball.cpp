@@ -38,15 +38,7 @@ Image material_ball(const Brdf& material, const LightTree& light, int size) {
   const GBuffer seen = ball_view(size, samples);
   const ReflectanceMap map(PatchSum(material, light), std::clamp(size, least_texels, most_texels));
   const std::array maps{&map};
-  const Image colours = mapped_image(seen, maps), mask = seen.mask_image();
-  Image ball(size, size, 4);
-  for (std::size_t pixel = 0; pixel < mask.values.size(); ++pixel) {
-    const float covered = mask.values[pixel];
-    float* out = &ball.values[4 * pixel];
-    out[3] = covered;
-    for (std::size_t k = 0; covered > 0 && k < 3; ++k) out[k] = colours.values[3 * pixel + k] / covered;
-  }
-  return ball;
+  return on_clear_ground(mapped_image(seen, maps), seen.mask_image());
 }
 
 float grey_card_exposure(const EnvironmentLight& light) {

@@ -142,10 +142,10 @@ DatasetReport make_dataset(const DatasetConfig& config, const Rank& rank, const 
     });
   };
   using tbb::filter_mode;
-  tbb::parallel_pipeline(tokens, tbb::make_filter<void, std::shared_ptr<Batch>>(filter_mode::serial_in_order, next) &
-                                     tbb::make_filter<std::shared_ptr<Batch>, std::shared_ptr<Batch>>(
-                                         filter_mode::parallel, render) &
-                                     tbb::make_filter<std::shared_ptr<Batch>, void>(filter_mode::serial_in_order, write));
+  tbb::parallel_pipeline(
+      tokens, tbb::make_filter<void, std::shared_ptr<Batch>>(filter_mode::serial_in_order, next) &
+                  tbb::make_filter<std::shared_ptr<Batch>, std::shared_ptr<Batch>>(filter_mode::parallel, render) &
+                  tbb::make_filter<std::shared_ptr<Batch>, void>(filter_mode::serial_in_order, write));
   error.rethrow();
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;

@@ -48,9 +48,9 @@ class ConfigReader {
     std::vector<std::string> found = files_matching(config_.folder, pattern);
     if (found.empty()) {
       const bool one = !is_pattern(pattern);
-      fields.refuse(place, fmt::format("\"{}\" {}", pattern, one ? "does not exist" : "matches no file"),
-                    fmt::format("name files relative to {}",
-                                config_.folder.empty() ? "this folder" : config_.folder.string()));
+      fields.refuse(
+          place, fmt::format("\"{}\" {}", pattern, one ? "does not exist" : "matches no file"),
+          fmt::format("name files relative to {}", config_.folder.empty() ? "this folder" : config_.folder.string()));
     }
     return found;
   }

@@ -1,8 +1,8 @@
 // What a data set of images is to hold, from JSON (docs/dataset.md).
 //
 // Files are named relative to the configuration's folder and stay so in the data, which then is the same wherever the
-// folder lies. Every field is checked, and none may be there that is not known; patterns are expanded here, in the order
-// of the alphabet, and what they name must be there. Errors: InputError with the file and the field's place.
+// folder lies. Every field is checked, and none may be there that is not known; patterns are expanded here, in the
+// order of the alphabet, and what they name must be there. Errors: InputError with the file and the field's place.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@ namespace partwise {
 enum class ImageFormat { exr, png };
 
 struct DatasetConfig {
-  std::filesystem::path folder;        // where the files lie that it names
-  std::vector<ShapeFile> shapes;       // relative to it
+  std::filesystem::path folder;   // where the files lie that it names
+  std::vector<ShapeFile> shapes;  // relative to it
   PartSettings parts;
   double crease_degrees = 40;
   std::vector<std::string> materials;  // shipped ones by name, or files

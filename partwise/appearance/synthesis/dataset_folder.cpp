@@ -1,6 +1,7 @@
 #include "partwise/appearance/synthesis/dataset_folder.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -17,7 +18,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json named_files(const DatasetConfig& config, const std::vector<std::string>& names, bool (*is_file)(const std::string&)) {
+Json named_files(const DatasetConfig& config, const std::vector<std::string>& names,
+                 bool (*is_file)(const std::string&)) {
   Json list = Json::array();
   for (const std::string& name : names) {
     Json entry = {{"name", name}};
@@ -31,7 +33,8 @@ Json named_files(const DatasetConfig& config, const std::vector<std::string>& na
 Json origin(const DatasetConfig& config) {
   Json shapes = Json::array();
   for (const ShapeFile& shape : config.shapes) {
-    shapes.push_back({{"file", shape.file.string()}, {"bytes", std::filesystem::file_size(config.folder / shape.file)}});
+    shapes.push_back(
+        {{"file", shape.file.string()}, {"bytes", std::filesystem::file_size(config.folder / shape.file)}});
     if (!shape.model.empty()) shapes.back()["model"] = shape.model;
   }
   return {
@@ -80,22 +83,31 @@ void refuse_other(const std::filesystem::path& file, const Json& before, const J
 }  // namespace
 
 DatasetFolder::DatasetFolder(const DatasetConfig& config) : folder_(config.output) {
+  const std::filesystem::path file = folder_ / "dataset.json";
+  const Json now = origin(config);
+  if (std::filesystem::exists(file)) {
+    const Json before = Json::parse(read_bytes(file), nullptr, false);
+    if (before == now) return;
+    if (has_shards()) refuse_other(file, before, now);
+  }
   std::error_code error;
+  std::filesystem::remove_all(parts(), error);  // of other shapes
   std::filesystem::create_directories(parts(), error);
   if (error) {
     throw InputError(folder_.string(), fmt::format("cannot be made ({})", error.message()),
                      "name a folder that you may write to");
   }
-  const std::filesystem::path file = folder_ / "dataset.json";
-  const Json now = origin(config);
-  if (std::filesystem::exists(file)) {
-    refuse_other(file, Json::parse(read_bytes(file), nullptr, false), now);
-  } else {
-    write_file(file, now.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
-  }
+  write_file(file, now.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
-std::filesystem::path DatasetFolder::shard(int number) const { return folder_ / fmt::format("shard-{:06}.tar", number); }
+bool DatasetFolder::has_shards() const {
+  return std::ranges::any_of(std::filesystem::directory_iterator(folder_),
+                             [](const auto& entry) { return entry.path().extension() == ".tar"; });
+}
+
+std::filesystem::path DatasetFolder::shard(int number) const {
+  return folder_ / fmt::format("shard-{:06}.tar", number);
+}
 
 void DatasetFolder::remove_rest(int number) const {
   const std::string name = shard(number).filename().string() + ".";

@@ -10,8 +10,9 @@ namespace partwise {
 
 class DatasetFolder {
  public:
-  // Makes the folder, or finds it made from the same: settings, names, and sizes of files.
-  // Errors: InputError for a folder that cannot be made or was made from something else.
+  // Makes the folder, or finds it made from the same: settings, names, and sizes of files. A folder without a shard may
+  // have been made from anything.
+  // Errors: InputError for a folder that cannot be made or holds shards that were made from something else.
   explicit DatasetFolder(const DatasetConfig& config);
 
   std::filesystem::path shard(int number) const;
@@ -21,6 +22,8 @@ class DatasetFolder {
   void remove_rest(int number) const;
 
  private:
+  bool has_shards() const;
+
   std::filesystem::path folder_;
 };
 

@@ -53,10 +53,9 @@ struct DatasetImages::State {
              .viewpoints = config.viewpoints,
              .views = config.views},
         shapes(config.shapes.size(), [this](int i) { return shape(i); }),
-        materials(config.materials.size(),
-                  [this](int i) {
-                    return find_material(config.materials[static_cast<std::size_t>(i)], config.folder);
-                  }),
+        materials(
+            config.materials.size(),
+            [this](int i) { return find_material(config.materials[static_cast<std::size_t>(i)], config.folder); }),
         lights(config.lights.size(), [this](int i) {
           return named_light(config.lights[static_cast<std::size_t>(i)], config.folder)
               .resized(config.light_width, config.light_height);

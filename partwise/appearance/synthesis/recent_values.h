@@ -1,5 +1,5 @@
-// The values that were asked for last, as many as fit into so many bytes. For many threads: two that miss the same value
-// at once both make it, so nobody waits for another. Internal to this room.
+// The values that were asked for last, as many as fit into so many bytes. For many threads: two that miss the same
+// value at once both make it, so nobody waits for another. Internal to this room.
 #pragma once
 
 #include <list>

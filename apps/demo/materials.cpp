@@ -1,0 +1,254 @@
+#include "materials.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <memory>
+#include <numbers>
+
+#include "partwise/appearance/material/material_files.h"
+#include "partwise/appearance/palette.h"
+#include "partwise/appearance/rendering/image_formation.h"
+#include "partwise/appearance/rendering/material_ball.h"
+#include "partwise/appearance/synthesis/part_groups.h"
+#include "partwise/appearance/synthesis/sample_plan.h"
+#include "partwise/imaging/tone_mapping.h"
+#include "partwise/parts/surface/segmentation.h"
+#include "pictures.h"
+
+namespace demo {
+namespace {
+
+using namespace partwise;
+using Clock = std::chrono::steady_clock;
+
+constexpr int ball_size = 112, chair_size = 300, channel_size = 240, sample_size = 128;
+constexpr int light_rows = 128;  // of mirrors and what one looks at closely; random images take half as many
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+EnvironmentLight light_of(const std::string& name, int rows) { return shipped_light(name).resized(2 * rows, rows); }
+
+// make_picture gives values the curve of sRGB; those that are codes already lose it here.
+Image from_codes(Image codes) {
+  for (std::size_t i = 0; i < codes.values.size(); ++i) {
+    if (codes.channels != 4 || i % 4 != 3) codes.values[i] = linear_from_srgb(codes.values[i]);
+  }
+  return codes;
+}
+
+Image for_the_eye(const Image& linear, float exposure) {
+  Image mapped = tone_map(linear, exposure);
+  for (float& value : mapped.values) value /= 255;
+  return from_codes(std::move(mapped));
+}
+
+// colour(pixel) with the alpha of the mask.
+template <typename Colour>
+Image channel_image(const GBuffer& seen, const Colour& colour) {
+  const Image mask = seen.mask_image();
+  Image image(mask.width, mask.height, 4);
+  for (std::size_t i = 0; i < mask.values.size(); ++i) {
+    const Eigen::Vector3f value = colour(i);
+    std::copy_n(value.data(), 3, &image.values[4 * i]);
+    image.values[4 * i + 3] = mask.values[i];
+  }
+  return image;
+}
+
+Image normals_of(const GBuffer& seen) {
+  const Image normals = seen.normal_image();
+  return from_codes(channel_image(seen, [&](std::size_t i) -> Eigen::Vector3f {
+    return (Eigen::Map<const Eigen::Vector3f>(&normals.values[3 * i]).array() + 1) / 2;
+  }));
+}
+
+Image depth_of(const GBuffer& seen) {
+  const Image depth = seen.depth_image();
+  float near = 1e30f, far = 0;
+  for (const float each : depth.values) {
+    if (each > 0) near = std::min(near, each), far = std::max(far, each);
+  }
+  return from_codes(channel_image(seen, [&](std::size_t i) -> Eigen::Vector3f {
+    return Eigen::Vector3f::Constant(0.95f - 0.75f * (depth.values[i] - near) / std::max(far - near, 1e-6f));
+  }));
+}
+
+Image parts_of(const GBuffer& seen) {
+  const std::vector<int> parts = seen.part_of_pixels();
+  return channel_image(seen, [&](std::size_t i) -> Eigen::Vector3f { return part_colour(std::max(parts[i], 0)); });
+}
+
+Image mask_of(const GBuffer& seen) {
+  return channel_image(seen, [&](std::size_t) -> Eigen::Vector3f { return Eigen::Vector3f::Constant(0.55f); });
+}
+
+// The view in these materials, one a part, on clear ground. Maps of few texels, or by patches where `fine`.
+Image image_of(const GBuffer& seen, const std::vector<Dsbrdf>& materials, const EnvironmentLight& light, bool fine) {
+  std::vector<ReflectanceMap> maps;
+  std::vector<const ReflectanceMap*> worn;
+  const LightTree tree(light);
+  const LightSamples samples = light_samples(light);
+  for (const Dsbrdf& material : materials)
+    maps.push_back(fine ? ReflectanceMap(PatchSum(material, tree), 96) : ReflectanceMap(material, samples, 48));
+  for (const ReflectanceMap& map : maps) worn.push_back(&map);
+  return for_the_eye(on_clear_ground(mapped_image(seen, worn), seen.mask_image()), grey_card_exposure(light));
+}
+
+GBuffer view_of(const WornModel& model, double azimuth, int size, double share) {
+  const RenderMesh mesh{model.mesh, model.parts};
+  const RenderScene scene({&mesh, 1});
+  return scene.view(frame_share(scene, {.azimuth = azimuth, .share = share}, 1), {size, size, 8});
+}
+
+std::vector<Dsbrdf> brdfs(const std::vector<std::string>& names) {
+  std::vector<Dsbrdf> result;
+  result.reserve(names.size());
+  for (const std::string& name : names) result.push_back(shipped_material(name).brdf);
+  return result;
+}
+
+std::vector<std::string> for_parts(const std::vector<std::string>& names, int parts) {
+  std::vector<std::string> worn;
+  for (int part = 0; part < parts; ++part) worn.push_back(names[static_cast<std::size_t>(part) % names.size()]);
+  return worn;
+}
+
+std::vector<Picture> tell_balls() {
+  const EnvironmentLight light = light_of("venice", light_rows);
+  const LightTree tree(light);
+  const float exposure = grey_card_exposure(light);
+  std::vector<Picture> balls;
+  for (const std::string& name : shipped_materials()) {
+    balls.push_back(make_picture(for_the_eye(material_ball(shipped_material(name).brdf, tree, ball_size), exposure),
+                                 name, "A ball in " + name));
+  }
+  return balls;
+}
+
+std::vector<Picture> tell_chairs(WornModel chair) {
+  const std::vector<int> pieces = segment(chair.mesh, {.feature = SurfaceFeature::visibility_average}).labels;
+  const PartGroups groups = group_parts(chair.mesh, pieces, 3);
+  chair.parts = groups.of_face;
+  const GBuffer seen = view_of(chair, 35, chair_size, 0.4);
+  const EnvironmentLight light = light_of("lobby", light_rows);
+  std::vector<Picture> pictures;
+  for (const std::vector<std::string>& names :
+       std::initializer_list<std::vector<std::string>>{{"chrome", "red-fabric", "black-obsidian"},
+                                                       {"natural-209", "green-fabric", "cherry-235"},
+                                                       {"gold-metallic-paint", "white-fabric", "brass"},
+                                                       {"blue-metallic-paint", "specular-yellow-phenolic", "steel"},
+                                                       {"white-marble", "black-fabric", "aluminium"},
+                                                       {"dark-red-paint", "beige-fabric", "colonial-maple-223"}}) {
+    const std::vector<std::string> worn = for_parts(names, groups.count);
+    pictures.push_back(make_picture(image_of(seen, brdfs(worn), light, true), fmt::format("{}", fmt::join(worn, ", ")),
+                                    fmt::format("A chair in {}", fmt::join(worn, ", "))));
+  }
+  return pictures;
+}
+
+void tell_channels(WornModel car, MaterialsStory& story) {
+  const PartGroups groups = group_parts(car.mesh, car.parts, 4);
+  car.parts = groups.of_face;
+  const GBuffer seen = view_of(car, 40, channel_size, 0.42);
+  const std::vector<Dsbrdf> worn =
+      brdfs(for_parts({"red-metallic-paint", "black-soft-plastic", "chrome", "gold-paint"}, groups.count));
+  const auto image = [&](const std::string& light) { return image_of(seen, worn, light_of(light, light_rows), true); };
+  story.channels = {make_picture(image("venice"), "Image", "A toy car in four materials"),
+                    make_picture(normals_of(seen), "Normals", "Its normals as colours"),
+                    make_picture(depth_of(seen), "Depth", "Its depth, near bright and far dark"),
+                    make_picture(mask_of(seen), "Mask", "What it covers"),
+                    make_picture(parts_of(seen), "Parts", "Its parts in colours")};
+  for (const char* light : {"studio", "lobby", "park", "sunrise", "city"})
+    story.lights.push_back(make_picture(image(light), light, fmt::format("The toy car under the light {}", light)));
+}
+
+std::vector<Picture> tell_samples(std::span<const WornModel> models) {
+  constexpr int count = 60, most_parts = 4;
+  const std::vector<std::string> names = shipped_materials(), lights = shipped_lights();
+  std::vector<WornModel> worn(models.begin(), models.end());
+  SamplePlan plan{.seed = 7,
+                  .shapes = static_cast<int>(models.size()),
+                  .materials = static_cast<int>(names.size()),
+                  .lights = static_cast<int>(lights.size()),
+                  .views = 1};
+  for (WornModel& model : worn) {
+    const PartGroups groups = group_parts(model.mesh, model.parts, most_parts);
+    model.parts = groups.of_face;
+    plan.parts.push_back(groups.count);
+  }
+  std::vector<EnvironmentLight> maps;
+  for (const std::string& light : lights) maps.push_back(light_of(light, light_rows / 2));
+  std::vector<Picture> pictures;
+  for (int number = 0; number < count; ++number) {
+    const Sample drawn = sample(plan, static_cast<std::uint64_t>(number));
+    const WornModel& model = worn[static_cast<std::size_t>(drawn.shape)];
+    std::vector<std::string> materials;
+    for (const int material : drawn.materials) materials.push_back(names[static_cast<std::size_t>(material)]);
+    const GBuffer seen = view_of(model, 360.0 / plan.viewpoints * drawn.viewpoint, sample_size, 0.45);
+    const EnvironmentLight light =
+        maps[static_cast<std::size_t>(drawn.light)].rotated(drawn.light_turn * 180 / std::numbers::pi);
+    const std::array images{image_of(seen, brdfs(materials), light, false), normals_of(seen), parts_of(seen)};
+    pictures.push_back(make_picture(tile(images, 3), fmt::format("{}", fmt::join(materials, ", ")),
+                                    fmt::format("{} in random materials under the light {}; its normals; its parts",
+                                                model.name, lights[static_cast<std::size_t>(drawn.light)])));
+  }
+  return pictures;
+}
+
+}  // namespace
+
+MaterialsStory tell_materials(std::span<const WornModel> models, const WornModel& chair, const WornModel& car) {
+  const Clock::time_point start = Clock::now();
+  MaterialsStory story;
+  story.balls = tell_balls();
+  story.ball_seconds = seconds_since(start) / static_cast<double>(story.balls.size());
+  story.chairs = tell_chairs(chair);
+  tell_channels(car, story);
+  story.samples = tell_samples(models);
+  story.seconds = seconds_since(start);
+  return story;
+}
+
+std::string make_materials_page(const MaterialsStory& story) {
+  std::string html = page_head("Partwise: materials and light");
+  html += R"(<header>
+<p class="name"><a href="index.html">Partwise</a></p>
+<h1>Parts in real materials, under real light</h1>
+<p class="lead">A hundred measured materials, 108 numbers each; fourteen real places as light; and parts that the program finds itself,
+so that every image comes with its normals, depth, mask and parts.</p>
+</header>
+<section>
+<h2>A hundred materials</h2>
+<p>The materials of the MERL database as three lobes about the half-vector. All balls have one light and one exposure, that of a grey card.</p>
+)";
+  html += figures(story.balls, "wall") + R"(</section>
+<section>
+<h2>One chair, many materials</h2>
+<p>The chair is cut into parts by averaged visibility. Parts that look alike are one group, small ones join what they lie at, and each group
+wears a material of its own.</p>
+)" + figures(story.chairs, "row") +
+          R"(</section>
+<section>
+<h2>What is known of each pixel</h2>
+<p>Beside the image its normals, depth, mask and parts; below, the same car in other places.</p>
+)" + figures(story.channels, "row five") +
+          figures(story.lights, "row five gap") +
+          R"(</section>
+<section>
+<h2>Sixty random images</h2>
+<p>Shape, viewpoint, materials, light and its turn are drawn by chance from a seed and a number. Each has its normals and parts beside it.</p>
+)" + figures(story.samples, "row samples");
+  html += fmt::format(
+      "</section>\n</main>\n<footer>\n<p>The materials are fitted to networks of Neural-BRDF (MIT licence) that "
+      "reproduce the MERL "
+      "BRDF database; the lights are CC0. The models are those of <a href=\"index.html\">the first page</a>, "
+      "where their authors are named.</p>\n<p>Drawn by <code>partwise_demo</code> in {:.0f} seconds; a ball takes "
+      "{:.2f}.</p>\n</footer>\n</body>\n</html>\n",
+      story.seconds, story.ball_seconds);
+  return html;
+}
+
+}  // namespace demo
