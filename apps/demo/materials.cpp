@@ -12,7 +12,7 @@
 #include "partwise/appearance/palette.h"
 #include "partwise/appearance/rendering/image_formation.h"
 #include "partwise/appearance/rendering/material_ball.h"
-#include "partwise/appearance/synthesis/part_groups.h"
+#include "partwise/appearance/shapes/part_groups.h"
 #include "partwise/appearance/synthesis/sample_plan.h"
 #include "partwise/imaging/tone_mapping.h"
 #include "partwise/parts/surface/segmentation.h"
@@ -169,16 +169,18 @@ std::vector<Picture> tell_samples(std::span<const WornModel> models) {
   constexpr int count = 60, most_parts = 4;
   const std::vector<std::string> names = shipped_materials(), lights = shipped_lights();
   std::vector<WornModel> worn(models.begin(), models.end());
+  std::vector<int> parts;
+  for (WornModel& model : worn) {
+    const PartGroups groups = group_parts(model.mesh, model.parts, most_parts);
+    model.parts = groups.of_face;
+    parts.push_back(groups.count);
+  }
   SamplePlan plan{.seed = 7,
                   .shapes = static_cast<int>(models.size()),
                   .materials = static_cast<int>(names.size()),
                   .lights = static_cast<int>(lights.size()),
+                  .parts = [&](int shape) { return parts[static_cast<std::size_t>(shape)]; },
                   .views = 1};
-  for (WornModel& model : worn) {
-    const PartGroups groups = group_parts(model.mesh, model.parts, most_parts);
-    model.parts = groups.of_face;
-    plan.parts.push_back(groups.count);
-  }
   std::vector<EnvironmentLight> maps;
   for (const std::string& light : lights) maps.push_back(light_of(light, light_rows / 2));
   std::vector<Picture> pictures;

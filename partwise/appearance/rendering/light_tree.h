@@ -47,7 +47,7 @@ class LightTree {
 class PatchSum {
  public:
   // Both must outlive this.
-  PatchSum(const Brdf& material, const LightTree& light, double fineness = 0.35);
+  PatchSum(const Brdf& material, const LightTree& light, double fineness = 0.25);
   ~PatchSum();
   PatchSum(PatchSum&&) noexcept;
   PatchSum& operator=(PatchSum&&) noexcept;
