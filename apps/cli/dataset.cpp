@@ -49,7 +49,8 @@ void make(const Options& options, Run& run) {
 
 Action add(CLI::App& command) {
   const auto options = std::make_shared<Options>();
-  command.add_option("CONFIG", options->config, "What is to be made (.json): shapes, materials, lights, how many images")
+  command
+      .add_option("CONFIG", options->config, "What is to be made (.json): shapes, materials, lights, how many images")
       ->required()
       ->type_name("");
   add_file(command, "-o", options->output, "The folder of the shards, in place of the configuration's")
@@ -64,7 +65,8 @@ const Verb dataset_verb = {
     .summary = "Shards of training images: shapes whose parts wear random materials under random light",
     .details =
         "Makes what is missing of OUT/shard-000000.tar and so on (WebDataset): key.image.exr or .png, key.normal.png,\n"
-        "key.mask.png, key.part.png, and key.json, which partwise render renders again. Under mpirun, srun, torchrun or\n"
+        "key.mask.png, key.part.png, and key.json, which partwise render renders again. Under mpirun, srun, torchrun "
+        "or\n"
         "Kubernetes each rank makes its share. Stopped at any moment, the same command goes on with the same bytes.\n"
         "docs/dataset.md says what a configuration holds.",
     .example =

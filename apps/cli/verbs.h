@@ -19,7 +19,8 @@ extern const Verb material_verb;
 extern const Verb render_verb;
 extern const Verb dataset_verb;
 
-inline constexpr std::array verbs = {&decompose_verb, &feature_verb, &segment_verb,   &evaluate_verb, &retrieve_verb,
-                                     &medial_verb,    &outline_verb, &compare2d_verb, &material_verb, &render_verb, &dataset_verb};
+inline constexpr std::array verbs = {&decompose_verb, &feature_verb, &segment_verb, &evaluate_verb,
+                                     &retrieve_verb,  &medial_verb,  &outline_verb, &compare2d_verb,
+                                     &material_verb,  &render_verb,  &dataset_verb};
 
 }  // namespace partwise::cli

@@ -80,7 +80,8 @@ class JsonFields {
     if (found.is_string()) return {text(name)};
     if (!found.is_array() || found.empty()) refuse(name, "is no list of texts", "write [\"...\"]");
     for (const nlohmann::json& each : found) {
-      if (!each.is_string() || each.get<std::string>().empty()) refuse(name, "holds what is no text", "write it in quotes");
+      if (!each.is_string() || each.get<std::string>().empty())
+        refuse(name, "holds what is no text", "write it in quotes");
       result.push_back(each.get<std::string>());
     }
     return result;

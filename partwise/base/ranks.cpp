@@ -12,7 +12,8 @@ int number(const char* name, const std::string& text, int least) {
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || value < least) {
-    throw InputError(name, fmt::format("\"{}\" is not a whole number from {}", text, least), "set it right, or unset it");
+    throw InputError(name, fmt::format("\"{}\" is not a whole number from {}", text, least),
+                     "set it right, or unset it");
   }
   return value;
 }

@@ -5,9 +5,9 @@
 #include <fstream>
 
 #include "partwise/base/error.h"
+#include "partwise/base/test_corpus.h"
 #include "partwise/geometry/mesh_formats.h"
 #include "partwise/geometry/mesh_io.h"
-#include "partwise/base/test_corpus.h"
 
 namespace partwise {
 namespace {

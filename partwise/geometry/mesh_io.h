@@ -37,9 +37,9 @@ Mesh read_mesh(const std::filesystem::path& path);
 // must hold its buffers itself.
 Mesh read_mesh(const std::string& name, std::string_view bytes);
 
-// What the faces of an OBJ file wear: the names that its lines usemtl give, in the order of their first use, and of each
-// face of the mesh that read_mesh makes of it the place of its own; "" before the first such line. Errors: as read_mesh,
-// and for a file without such a line.
+// What the faces of an OBJ file wear: the names that its lines usemtl give, in the order of their first use, and of
+// each face of the mesh that read_mesh makes of it the place of its own; "" before the first such line. Errors: as
+// read_mesh, and for a file without such a line.
 struct FaceMaterials {
   std::vector<std::string> names;
   std::vector<int> of_face;

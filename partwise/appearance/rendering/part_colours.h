@@ -31,7 +31,7 @@ class PartColours {
   std::vector<std::shared_ptr<const Brdf>> materials_;  // that the sums refer to
   std::vector<std::unique_ptr<const LightSum>> sum_owners_;
   std::vector<std::unique_ptr<const ReflectanceMap>> map_owners_;
-  std::vector<const LightSum*> sums_;        // a part, of one of the two
+  std::vector<const LightSum*> sums_;  // a part, of one of the two
   std::vector<const ReflectanceMap*> maps_;
 };
 

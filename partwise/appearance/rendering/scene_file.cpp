@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "partwise/appearance/json_fields.h"
 #include "partwise/appearance/material/material_files.h"
 #include "partwise/appearance/material/microfacet_brdf.h"
 #include "partwise/appearance/shapes/shape_fields.h"
-#include "partwise/appearance/json_fields.h"
 #include "partwise/base/error.h"
 #include "partwise/base/read_bytes.h"
 #include "partwise/geometry/mesh_io.h"
@@ -33,8 +33,7 @@ class SceneReader {
     for (std::size_t i = 0; i < meshes.size(); ++i) add_mesh(fmt::format("meshes[{}]", i), meshes[i]);
     read_light("light", fields.need("light"));
     if (const json* camera = fields.find("camera")) read_camera("camera", *camera);
-    std::tie(scene_.size.width, scene_.size.height) =
-        fields.two_sizes("size", {scene_.size.width, scene_.size.height});
+    std::tie(scene_.size.width, scene_.size.height) = fields.two_sizes("size", {scene_.size.width, scene_.size.height});
     scene_.size.samples = fields.whole("samples", 4, 1, 256);
     scene_.shadows = fields.truth("shadows", false);
     scene_.path =
@@ -50,7 +49,9 @@ class SceneReader {
   }
 
  private:
-  JsonFields object(const std::string& place, const json& value) const { return {path_.string(), place, value, "docs/render.md"}; }
+  JsonFields object(const std::string& place, const json& value) const {
+    return {path_.string(), place, value, "docs/render.md"};
+  }
 
   std::filesystem::path file(const std::string& name) {
     scene_.files.push_back(folder_ / name);
@@ -190,11 +191,11 @@ RenderedScene render(const SceneFile& scene) {
   const RenderScene meshes(scene.meshes);
   const Camera camera = frame_share(meshes, scene.view, static_cast<double>(scene.size.width) / scene.size.height);
   GBuffer seen = meshes.view(camera, scene.size);
-  const PartColours colours(scene.materials,
-                            light_samples(scene.light, scene.light_turns_with_camera
-                                                           ? Eigen::Matrix3d(Eigen::Matrix3d::Identity())
-                                                           : camera.axes),
-                            scene.path, scene.map_size);
+  const PartColours colours(
+      scene.materials,
+      light_samples(scene.light,
+                    scene.light_turns_with_camera ? Eigen::Matrix3d(Eigen::Matrix3d::Identity()) : camera.axes),
+      scene.path, scene.map_size);
   Image image = scene.shadows ? colours.shadowed_image(seen, meshes, camera) : colours.image(seen);
   return {std::move(seen), camera, std::move(image)};
 }

@@ -1,8 +1,8 @@
 // A scene to be rendered, from JSON (docs/render.md), and its image.
 //
-// Files are named relative to the scene's folder, or another that is given. Every field is checked, and none may be there that is not known.
-// Errors: InputError with the scene's file and the field's place ("meshes[1].labels") for what is missing, of the wrong
-// kind or out of range, and those of the files that it names.
+// Files are named relative to the scene's folder, or another that is given. Every field is checked, and none may be
+// there that is not known. Errors: InputError with the scene's file and the field's place ("meshes[1].labels") for what
+// is missing, of the wrong kind or out of range, and those of the files that it names.
 #pragma once
 
 #include <filesystem>

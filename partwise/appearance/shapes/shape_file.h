@@ -4,9 +4,9 @@
 // Vertices at equal places are joined first, so that what looks connected is; faces keep the order of the file. Parts:
 //   whole       one
 //   components  what is connected
-//   corise      nearly convex pieces (parts/solid/decompose.h), of a tolerance in shares of the bounding sphere's radius
-//   cvf         what people would cut, by continuous visibility (parts/surface/segmentation.h)
-//   materials   what the faces wear in the file, an OBJ
+//   corise      nearly convex pieces (parts/solid/decompose.h), of a tolerance in shares of the bounding sphere's
+//   radius cvf         what people would cut, by continuous visibility (parts/surface/segmentation.h) materials   what
+//   the faces wear in the file, an OBJ
 // Those that are alike, and small ones with what they lie at, are then one (part_groups.h): at most `groups` are left.
 //
 // Deterministic, the same for any number of threads. Errors: InputError, one line that names the file, for one that

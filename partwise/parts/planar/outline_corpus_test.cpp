@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "partwise/base/error.h"
-#include "partwise/geometry/polygon_validity.h"
 #include "partwise/base/test_corpus.h"
+#include "partwise/geometry/polygon_validity.h"
 #include "partwise/parts/planar/read_shape.h"
 
 namespace partwise {
