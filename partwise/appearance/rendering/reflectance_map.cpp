@@ -11,6 +11,7 @@
 #include <cstdint>
 
 #include "partwise/appearance/rendering/halfway_table.h"
+#include "partwise/appearance/rendering/tabulated_material.h"
 #include "partwise/base/error.h"
 
 namespace partwise {
@@ -90,10 +91,9 @@ void add_sample(const Eigen::Vector3f& light, const Eigen::Vector3f& half, const
 
 // Blocks of normals times blocks of light samples are summed apart and then together in the order of the light, so that
 // the result does not depend on who did which.
-std::vector<Eigen::Vector3f> table_colours(const Dsbrdf& material, const LightSamples& light,
+std::vector<Eigen::Vector3f> table_colours(const HalfwayTable& table, const LightSamples& light,
                                            std::span<const Eigen::Vector3f> normals) {
   constexpr std::size_t block = 4096, light_blocks = 8;
-  const HalfwayTable table(material);
   const Eigen::ArrayX3f half = half_vectors(light);
   const std::size_t normal_blocks = (normals.size() + block - 1) / block;
   std::vector<std::vector<float>> sums(normal_blocks * light_blocks);
@@ -129,9 +129,14 @@ ReflectanceMap::ReflectanceMap(const Brdf& material, const LightSamples& light, 
   PARTWISE_CHECK(size, >=, 8);
   const Texels texels = texels_of(size);
   normals_ = static_cast<int>(texels.normals.size());
-  const auto* dsbrdf = dynamic_cast<const Dsbrdf*>(&material);
-  const std::vector<Eigen::Vector3f> colours = dsbrdf != nullptr ? table_colours(*dsbrdf, light, texels.normals)
-                                                                 : LightSum(material, light).colours(texels.normals);
+  std::vector<Eigen::Vector3f> colours;
+  if (const auto* ready = dynamic_cast<const TabulatedMaterial*>(&material)) {
+    colours = table_colours(ready->table(), light, texels.normals);
+  } else if (const auto* dsbrdf = dynamic_cast<const Dsbrdf*>(&material)) {
+    colours = table_colours(HalfwayTable(*dsbrdf), light, texels.normals);
+  } else {
+    colours = LightSum(material, light).colours(texels.normals);
+  }
   for (std::size_t i = 0; i < colours.size(); ++i) {
     std::copy_n(colours[i].data(), 3, image_.values.data() + 3 * static_cast<std::size_t>(texels.index[i]));
   }
