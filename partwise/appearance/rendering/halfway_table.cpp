@@ -13,6 +13,12 @@ namespace {
 
 constexpr double quarter = std::numbers::pi / 2;
 
+std::vector<float> all_knots() {
+  std::vector<float> knots;
+  for (int place = 0; place < HalfwayTable::places; ++place) knots.push_back(HalfwayTable::knot(place));
+  return knots;
+}
+
 }  // namespace
 
 float HalfwayTable::knot(int place) {
@@ -24,6 +30,7 @@ float HalfwayTable::knot(int place) {
 
 HalfwayTable::HalfwayTable(const Dsbrdf& material) : table_(rows) {
   constexpr int together = 8;
+  static const std::vector<float> knots = all_knots();
   tbb::parallel_for(0, rows, [&](int i) {
     const DsbrdfLobes lobes = material.lobes(quarter * i / (rows - 1));
     const Eigen::Matrix3f kappa = lobes.kappa.cast<float>(), gamma = lobes.gamma.cast<float>();
@@ -31,7 +38,7 @@ HalfwayTable::HalfwayTable(const Dsbrdf& material) : table_(rows) {
     row.fill(0);
     for (int first = 0; first < places; first += together) {
       float8::Float8 s{};
-      for (int k = 0; k < together; ++k) s[k] = knot(std::min(first + k, places - 1));
+      for (int k = 0; k < together; ++k) s[k] = knots[static_cast<std::size_t>(std::min(first + k, places - 1))];
       const LogCosines cosines(s);
       for (int channel = 0; channel < 3; ++channel) {
         const float8::Float8 value = lobe_sum(

@@ -12,6 +12,7 @@
 
 #include "partwise/appearance/rendering/halfway_table.h"
 #include "partwise/appearance/rendering/normal_disk.h"
+#include "partwise/appearance/rendering/tabulated_material.h"
 #include "partwise/base/error.h"
 
 namespace partwise {
@@ -61,10 +62,9 @@ void add_sample(const Eigen::Vector3f& light, const Eigen::Vector3f& half, const
 
 // Blocks of normals times blocks of light samples are summed apart and then together in the order of the light, so that
 // the result does not depend on who did which.
-std::vector<Eigen::Vector3f> table_colours(const Dsbrdf& material, const LightSamples& light,
+std::vector<Eigen::Vector3f> table_colours(const HalfwayTable& table, const LightSamples& light,
                                            std::span<const Eigen::Vector3f> normals) {
   constexpr std::size_t block = 4096, light_blocks = 8;
-  const HalfwayTable table(material);
   const Eigen::ArrayX3f half = half_vectors(light);
   const std::size_t normal_blocks = (normals.size() + block - 1) / block;
   std::vector<std::vector<float>> sums(normal_blocks * light_blocks);
@@ -97,9 +97,12 @@ std::vector<Eigen::Vector3f> table_colours(const Dsbrdf& material, const LightSa
 }  // namespace
 
 ReflectanceMap::ReflectanceMap(const Brdf& material, const LightSamples& light, int size) : image_(size, size, 3) {
-  const auto* dsbrdf = dynamic_cast<const Dsbrdf*>(&material);
   fill([&](const std::vector<Eigen::Vector3f>& normals) {
-    return dsbrdf != nullptr ? table_colours(*dsbrdf, light, normals) : LightSum(material, light).colours(normals);
+    if (const auto* ready = dynamic_cast<const TabulatedMaterial*>(&material))
+      return table_colours(ready->table(), light, normals);
+    if (const auto* dsbrdf = dynamic_cast<const Dsbrdf*>(&material))
+      return table_colours(HalfwayTable(*dsbrdf), light, normals);
+    return LightSum(material, light).colours(normals);
   });
 }
 

@@ -8,6 +8,7 @@
 #include "partwise/appearance/material/material_files.h"
 #include "partwise/appearance/rendering/channel_files.h"
 #include "partwise/appearance/rendering/part_colours.h"
+#include "partwise/appearance/rendering/tabulated_material.h"
 #include "partwise/appearance/synthesis/lazy_list.h"
 #include "partwise/appearance/synthesis/recent_values.h"
 #include "partwise/appearance/synthesis/sample_plan.h"
@@ -18,18 +19,18 @@
 namespace partwise {
 namespace {
 
-constexpr std::size_t most_view_bytes = std::size_t{256} << 20;
+constexpr std::size_t most_view_bytes = std::size_t{256} << 20, most_table_bytes = std::size_t{256} << 20;
 
 // What a camera sees of a shape, whatever it wears.
 struct View {
   GBuffer seen;
   std::string normals, mask, parts;  // PNG files
-};
 
-std::size_t bytes_of(const View& view) {
-  return view.seen.parts.size() * (sizeof(Eigen::Vector3f) + sizeof(float) + sizeof(int)) + view.normals.size() +
-         view.mask.size() + view.parts.size();
-}
+  std::size_t bytes() const {
+    return sizeof(*this) + seen.parts.size() * (sizeof(Eigen::Vector3f) + sizeof(float) + sizeof(int)) +
+           normals.size() + mask.size() + parts.size();
+  }
+};
 
 }  // namespace
 
@@ -41,6 +42,7 @@ struct DatasetImages::State {
   LazyList<std::shared_ptr<const Brdf>> materials;
   LazyList<EnvironmentLight> lights;
   RecentValues<std::pair<int, int>, View> views{most_view_bytes};
+  RecentValues<int, TabulatedMaterial> tables{most_table_bytes};
 
   State(DatasetConfig given, std::filesystem::path folder)
       : config(std::move(given)),
@@ -86,13 +88,15 @@ struct DatasetImages::State {
     const auto make = [&] {
       const RenderScene& scene = shapes[shape];
       const double aspect = static_cast<double>(config.size.width) / config.size.height;
-      View view{scene.view(frame_share(scene, sample_view(config, viewpoint), aspect), config.size), {}, {}, {}};
-      view.normals = encode_normals(view.seen);
-      view.mask = encode_mask(view.seen);
-      view.parts = encode_parts(view.seen);
-      return view;
+      GBuffer seen = scene.view(frame_share(scene, sample_view(config, viewpoint), aspect), config.size);
+      auto made = std::make_shared<View>();
+      made->normals = encode_normals(seen);
+      made->mask = encode_mask(seen);
+      made->parts = encode_parts(seen);
+      made->seen = std::move(seen);
+      return made;
     };
-    return views.get({shape, viewpoint}, make, bytes_of);
+    return views.get({shape, viewpoint}, make);
   }
 
   void add_image(std::uint64_t number, const Sample& sample, const PartColours& colours,
@@ -111,9 +115,15 @@ struct DatasetImages::State {
     files.push_back({key + ".json", sample_scene(config, number, sample)});
   }
 
+  std::shared_ptr<const Brdf> ready_material(int i) {
+    const auto* dsbrdf = dynamic_cast<const Dsbrdf*>(materials[i].get());
+    if (dsbrdf == nullptr || config.path == RenderPath::exact) return materials[i];
+    return tables.get(i, [&] { return std::make_shared<const TabulatedMaterial>(*dsbrdf); });
+  }
+
   std::unique_ptr<const PartColours> colours(const Sample& sample) {
     std::vector<std::shared_ptr<const Brdf>> worn;
-    for (const int material : sample.materials) worn.push_back(materials[material]);
+    for (const int material : sample.materials) worn.push_back(ready_material(material));
     const EnvironmentLight light = lights[sample.light].rotated(light_rotation(sample));
     return std::make_unique<const PartColours>(worn, light_samples(light), config.path, config.map_size);
   }

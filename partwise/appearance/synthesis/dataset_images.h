@@ -2,8 +2,9 @@
 // precision, or tone-mapped), normals, mask and parts (rendering/channel_files.h), and the scene that renders it again.
 //
 // An image depends on the configuration and its number alone. Shapes (with their parts), materials and lights are read
-// when they are first drawn, and kept; what cameras see is kept as long as 256 MiB hold it. So memory does not grow
-// with the number of images. For any number of threads at a time. Errors: InputError of files that cannot be used.
+// when they are first drawn, and kept; what cameras see, and materials made ready for maps, are kept as long as 256 MiB
+// each hold them. So memory does not grow with the number of images. For any number of threads at a time. Errors:
+// InputError of files that cannot be used.
 #pragma once
 
 #include <cstdint>

@@ -15,16 +15,15 @@ class RecentValues {
  public:
   explicit RecentValues(std::size_t most_bytes) : most_bytes_(most_bytes) {}
 
-  // bytes(value) says how much room it takes; what alone is too large is not kept.
-  template <typename Make, typename Bytes>
-  std::shared_ptr<const Value> get(const Key& key, const Make& make, const Bytes& bytes) {
+  // make() gives a shared pointer, whose value's bytes() says how much room it takes; what alone is too large is not
+  // kept.
+  template <typename Make>
+  std::shared_ptr<const Value> get(const Key& key, const Make& make) {
     if (std::shared_ptr<const Value> found = find(key)) return found;
-    auto value = std::make_shared<const Value>(make());
-    keep(key, value, bytes(*value));
+    std::shared_ptr<const Value> value = make();
+    keep(key, value, value->bytes());
     return value;
   }
-
-  std::size_t bytes() const { return bytes_; }
 
  private:
   struct Entry {
