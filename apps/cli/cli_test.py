@@ -982,7 +982,7 @@ class Material(CommandLine):
         self.assert_refused(self.ball("chrome", "--light", "ball.exr", output="ball.exr"), 2, "ball.exr")
 
     def test_a_ball_of_what_is_not_there_is_one_line(self):
-        self.assert_refused(self.ball("chrom"), 1, "chrom", "did you mean chrome?", "material list")
+        self.assert_refused(self.ball("chrom"), 1, "chrom", "did you mean chrome, chrome-steel?", "material list")
         self.assert_refused(self.ball("fabric"), 1, "did you mean", "-fabric")
         self.assert_refused(self.ball("unobtainium"), 1, "none of those that ship; partwise material list names all")
         self.assert_refused(self.ball("none.json"), 1, "none.json", "does not exist")

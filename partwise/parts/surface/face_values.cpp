@@ -49,8 +49,8 @@ double bilateral_mean(const std::vector<Neighbourhood::Member>& members, const E
   const double own = values[members.front().face];
   double squares = 0;
   for (const auto& member : members) squares += (values[member.face] - own) * (values[member.face] - own);
-  if (squares == 0) return own;
   const double deviation = kRangeFactor * std::sqrt(squares / static_cast<double>(members.size()));
+  if (!(deviation > 0)) return own;  // no differences, or such that their squares vanish
   double sum = 0, weights = 0;
   for (const auto& member : members) {
     const double weight = gaussian(member.steps, window / 2.0) * gaussian(values[member.face] - own, deviation);

@@ -59,6 +59,9 @@ TEST(FaceValues, SmoothingKeepsConstantsAndBoundsAndSteps) {
   const FaceAdjacency adjacency = face_adjacency(mesh);
   const Eigen::VectorXd constant = Eigen::VectorXd::Constant(mesh.faces.rows(), 0.7);
   EXPECT_EQ(smooth_bilaterally(adjacency, constant, 3), constant);
+  // Differences whose squares vanish are none.
+  const Eigen::VectorXd tiny = Eigen::VectorXd::LinSpaced(constant.size(), 1e-162, 2e-162);
+  EXPECT_EQ(smooth_bilaterally(adjacency, tiny, 3), tiny);
   std::srand(1);
   const Eigen::VectorXd noisy = Eigen::VectorXd::Random(mesh.faces.rows());
   EXPECT_EQ(smooth_bilaterally(adjacency, noisy, 0), noisy);
