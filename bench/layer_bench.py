@@ -100,7 +100,7 @@ def main(words):
                      for name, sizes in entry["errors"].items() for size, found in sizes.items()]))
     if options.record:
         print(f"recorded in {history.record('layer', entry)}")
-    return 0 if min(ratios[best_map].values()) >= 10 else 3
+    return 0 if all(min(some.values()) >= 10 for some in ratios.values()) else 3
 
 
 if __name__ == "__main__":

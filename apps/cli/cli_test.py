@@ -29,37 +29,43 @@ def glb_json(file):
     return json.loads(data[20:20 + int.from_bytes(data[12:16], "little")])
 
 
+def png_rows(data):
+    """Width, height, bits, colour type and the rows of a PNG, as bytes."""
+    at, packed = 8, b""
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + length]
+        if kind == b"IHDR":
+            width, height, depth, colours = struct.unpack(">IIBB", body[:10])
+        elif kind == b"IDAT":
+            packed += body
+        at += 12 + length
+    step = depth // 8 * {0: 1, 2: 3, 6: 4}[colours]
+    raw, stride, rows = zlib.decompress(packed), step * width, []
+    for y in range(height):
+        start = y * (stride + 1)
+        above = rows[-1] if rows else bytes(stride)
+        rows.append(unfilter(raw[start], bytearray(raw[start + 1:start + 1 + stride]), above, step))
+    return width, height, depth, colours, rows
+
+
+def unfilter(kind, row, above, step):
+    def paeth(a, b, c):
+        da, db, dc = abs(b - c), abs(a - c), abs(a + b - 2 * c)
+        return a if da <= db and da <= dc else b if db <= dc else c
+
+    for i in range(len(row)) if kind else ():
+        left, corner = (row[i - step], above[i - step]) if i >= step else (0, 0)
+        row[i] = row[i] + (0, left, above[i], (left + above[i]) // 2, paeth(left, above[i], corner))[kind] & 255
+    return row
+
+
 class Picture:
     """A PNG of 8 bits a channel with alpha, decoded."""
 
     def __init__(self, file):
-        data, at, packed = file.read_bytes(), 8, b""
-        while at < len(data):
-            length, kind = struct.unpack(">I4s", data[at:at + 8])
-            body = data[at + 8:at + 8 + length]
-            if kind == b"IHDR":
-                self.width, self.height, depth, colours = struct.unpack(">IIBB", body[:10])
-                assert (depth, colours) == (8, 6), (depth, colours)
-            elif kind == b"IDAT":
-                packed += body
-            at += 12 + length
-        raw, stride, above = zlib.decompress(packed), 4 * self.width, bytes(4 * self.width)
-        self.rows = []
-        for y in range(self.height):
-            start = y * (stride + 1)
-            above = self.unfilter(raw[start], bytearray(raw[start + 1:start + 1 + stride]), above)
-            self.rows.append(above)
-
-    @staticmethod
-    def unfilter(kind, row, above):
-        def paeth(a, b, c):
-            da, db, dc = abs(b - c), abs(a - c), abs(a + b - 2 * c)
-            return a if da <= db and da <= dc else b if db <= dc else c
-
-        for i in range(len(row)) if kind else ():
-            left, corner = (row[i - 4], above[i - 4]) if i >= 4 else (0, 0)
-            row[i] = row[i] + (0, left, above[i], (left + above[i]) // 2, paeth(left, above[i], corner))[kind] & 255
-        return row
+        self.width, self.height, depth, colours, self.rows = png_rows(file.read_bytes())
+        assert (depth, colours) == (8, 6), (depth, colours)
 
     def hues(self, rows=slice(None)):
         """How many opaque pixels of each hue in degrees; greys have none."""
@@ -299,19 +305,6 @@ class Render(CommandLine):
     def render(self, *arguments):
         return self.run_program("render", "scene.json", *arguments)
 
-    def codes(self, name):
-        """Width, height, bits, colour type and the unpacked bytes of a PNG."""
-        data, at, packed = (self.folder / name).read_bytes(), 8, b""
-        while at < len(data):
-            length, kind = struct.unpack(">I4s", data[at:at + 8])
-            body = data[at + 8:at + 8 + length]
-            if kind == b"IHDR":
-                width, height, depth, colours = struct.unpack(">IIBB", body[:10])
-            elif kind == b"IDAT":
-                packed += body
-            at += 12 + length
-        return width, height, depth, colours, zlib.decompress(packed)
-
     def test_every_output_is_there(self):
         outputs = {"--exr": "a.exr", "--png": "a.png", "--normals": "n.png", "--depth": "d.exr", "--mask": "m.png",
                    "--parts": "p.png"}
@@ -322,10 +315,10 @@ class Render(CommandLine):
         self.assertGreater(report["images_per_second"], 0)
         self.assertAlmostEqual(report["foreground"], 0.45, delta=0.06)
         self.assert_files(*self.files, *outputs.values())
-        self.assertEqual(self.codes("a.png")[:4], (40, 30, 8, 2))
-        self.assertEqual(self.codes("m.png")[:4], (40, 30, 8, 0))
+        self.assertEqual(png_rows((self.folder / "a.png").read_bytes())[:4], (40, 30, 8, 2))
+        self.assertEqual(png_rows((self.folder / "m.png").read_bytes())[:4], (40, 30, 8, 0))
         for name, colours in (("n.png", 2), ("p.png", 0)):
-            self.assertEqual(self.codes(name)[:4], (40, 30, 16, colours))
+            self.assertEqual(png_rows((self.folder / name).read_bytes())[:4], (40, 30, 16, colours))
 
     def test_the_same_bytes_for_any_number_of_threads(self):
         made = []

@@ -10,10 +10,10 @@
 #include "options.h"
 #include "partwise/appearance/material/fit_dsbrdf.h"
 #include "partwise/appearance/material/material_files.h"
+#include "partwise/appearance/rendering/channel_files.h"
 #include "partwise/appearance/rendering/material_ball.h"
+#include "partwise/base/atomic_file.h"
 #include "partwise/imaging/exr.h"
-#include "partwise/imaging/png.h"
-#include "partwise/imaging/tone_mapping.h"
 #include "verbs.h"
 
 namespace partwise::cli {
@@ -44,29 +44,19 @@ struct BallOptions {
   int size = 256;
 };
 
-// 8 bits with the curve in the codes already.
-void write_tone_mapped(const std::filesystem::path& path, const Image& image, float exposure) {
-  Image mapped = tone_map(image, exposure);
-  for (float& value : mapped.values) value /= 255;
-  write_png(path, mapped, PngCodes::plain8);
-}
-
 void draw_ball(const BallOptions& options, Run& run) {
   const bool from_file = is_material_file(options.material);
-  const std::string light_ending = lower_ending(options.light);
-  const bool light_file = light_ending == ".exr" || light_ending == ".hdr";
   if (from_file) run.outputs.add_input("NAME", options.material);
-  if (light_file) run.outputs.add_input("--light", options.light);
+  if (is_light_file(options.light)) run.outputs.add_input("--light", options.light);
   run.outputs.add("-o", options.output, {".png", ".exr"});
   const std::shared_ptr<const Brdf> material = run.stage("read", [&] { return find_material(options.material); });
-  const EnvironmentLight light =
-      run.stage("read", [&] { return light_file ? read_light(options.light) : shipped_light(options.light); });
+  const EnvironmentLight light = run.stage("read", [&] { return named_light(options.light); });
   const Image ball = run.stage("render", [&] { return material_ball(*material, LightTree(light), options.size); });
   run.stage("write", [&] {
     if (lower_ending(options.output) == ".exr") {
       write_exr(run.outputs.staged("-o"), ball);
     } else {
-      write_tone_mapped(run.outputs.staged("-o"), ball, grey_card_exposure(light));
+      write_file(run.outputs.staged("-o"), encode_tone_mapped(ball, grey_card_exposure(light)));
     }
   });
   run.report["name"] = from_file ? std::filesystem::path(options.material).stem().string() : options.material;

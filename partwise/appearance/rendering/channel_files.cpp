@@ -6,10 +6,14 @@
 
 namespace partwise {
 
-std::string encode_tone_mapped(const Image& linear, const Image& mask) {
-  Image mapped = tone_map(linear, exposure_by_median(linear, mask));
+std::string encode_tone_mapped(const Image& linear, float exposure) {
+  Image mapped = tone_map(linear, exposure);
   for (float& value : mapped.values) value /= 255;
   return encode_png(mapped, PngCodes::plain8);  // the codes have their curve already
+}
+
+std::string encode_tone_mapped(const Image& linear, const Image& mask) {
+  return encode_tone_mapped(linear, exposure_by_median(linear, mask));
 }
 
 std::string encode_normals(const GBuffer& seen) {

@@ -1,6 +1,6 @@
 // What is known of the pixels of an image, in the bytes of a PNG file.
 //
-//   image    8 bits: exposure by the median of the foreground, gamma 2.2 (imaging/tone_mapping.h)
+//   image    8 bits: an exposure that is given, or by the median of the foreground, gamma 2.2 (imaging/tone_mapping.h)
 //   normals  16 bits, (n + 1) / 2: red to the right, green up, blue to the camera; the background is the zero vector
 //   mask     8 bits, the share of the pixel that is covered
 //   parts    16 bits, 0 for none, k + 1 for part k
@@ -15,6 +15,7 @@
 
 namespace partwise {
 
+std::string encode_tone_mapped(const Image& linear, float exposure);
 std::string encode_tone_mapped(const Image& linear, const Image& mask);
 std::string encode_normals(const GBuffer& seen);
 std::string encode_mask(const GBuffer& seen);

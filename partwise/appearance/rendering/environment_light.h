@@ -57,7 +57,7 @@ std::vector<std::string> shipped_lights();  // in the order of the alphabet
 
 // As people name a light: a shipped one, or a file (.exr, .hdr) relative to `folder`.
 bool is_light_file(const std::string& name);
-EnvironmentLight named_light(const std::string& name, const std::filesystem::path& folder);
+EnvironmentLight named_light(const std::string& name, const std::filesystem::path& folder = {});
 
 // A light as directions with weights, radiance times solid angle. Pixels without light are left out; zeros fill the end
 // up to a multiple of 8.

@@ -10,8 +10,6 @@
 #include <Eigen/Core>
 
 #include <array>
-#include <bit>
-#include <cstdint>
 #include <vector>
 
 #include "partwise/appearance/material/dsbrdf.h"
@@ -47,15 +45,7 @@ class HalfwayTable {
     return s < other ? near : static_cast<float>(places - 1) - near;
   }
 
-  static float place(float s) {
-    constexpr float unit = 1.0f / (1 << (23 - mantissa_bits));
-    const float other = 1 - s;
-    const float least = s < other ? s : other;
-    const auto steps =
-        std::bit_cast<std::int32_t>((least > 0 ? least : 0) + offset) - std::bit_cast<std::int32_t>(offset);
-    const float near = unit * static_cast<float>(steps);
-    return s < other ? near : static_cast<float>(places - 1) - near;
-  }
+  static float place(float s) { return place(float8::all(s))[0]; }
 
   // 1 - n.h of a whole place.
   static float knot(int place);

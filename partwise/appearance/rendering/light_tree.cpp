@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "partwise/appearance/rendering/halfway_table.h"
+#include "partwise/appearance/rendering/light_sum.h"
 #include "partwise/appearance/rendering/shading_frame.h"
 #include "partwise/base/error.h"
 
@@ -66,9 +67,8 @@ LightPatch patch_of(const Sums& sums, bool is_pixel) {
   const double length = mean.norm();
   // Patches at the top of small maps may bring as much from one side as from the other.
   const Eigen::Vector3d direction = length > 1e-6 ? Eigen::Vector3d(mean / length) : Eigen::Vector3d::UnitY();
-  const Eigen::Vector3d half = direction + Eigen::Vector3d::UnitZ();
   patch.direction = direction.cast<float>();
-  patch.half = half.norm() > 1e-6 ? Eigen::Vector3f(half.normalized().cast<float>()) : Eigen::Vector3f::UnitX();
+  patch.half = half_vector(direction).cast<float>();
   patch.radiance = sums.radiance.cast<float>();
   if (!is_pixel) patch.spread = static_cast<float>(std::sqrt(std::max(0.0, 2 - 2 * length)));
   return patch;

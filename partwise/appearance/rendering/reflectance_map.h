@@ -7,9 +7,8 @@
 // everywhere. They are bicubic (Catmull and Rom 1974): sharp lobes are as narrow as a few texels, and bilinear ones
 // flatten their peaks.
 //
-// For a Dsbrdf the sum goes over a table of the material (halfway_table.h), about a nanosecond a pair of normal and
-// light sample; for any other it is the exact one. The same bytes for any number of threads. Linear RGB. Errors:
-// CheckFailed for a size below 8.
+// For a Dsbrdf the sum goes over a table of the material (halfway_table.h), for any other it is the exact one. The same
+// bytes for any number of threads. Linear RGB. Errors: CheckFailed for a size below 8.
 #pragma once
 
 #include <Eigen/Core>

@@ -104,6 +104,23 @@ class ConfigReader {
     if (config_.shapes.size() == before) fields.refuse("except", "leaves no model", "name fewer");
   }
 
+  // A list of what ships, by names, and of patterns of files.
+  std::vector<std::string> names_or_files(JsonFields& fields, const std::string& place,
+                                          bool (*is_file)(const std::string&), const std::vector<std::string>& shipped,
+                                          const std::string& wrong, const std::string& remedy) const {
+    std::vector<std::string> result;
+    for (const std::string& name : fields.texts(place)) {
+      if (is_file(name)) {
+        std::ranges::copy(files(fields, place, name), std::back_inserter(result));
+      } else if (std::ranges::binary_search(shipped, name)) {
+        result.push_back(name);
+      } else {
+        fields.refuse(place, fmt::format("\"{}\" {}", name, wrong), remedy);
+      }
+    }
+    return result;
+  }
+
   std::vector<std::string> materials(JsonFields& fields) const {
     const std::vector<std::string> shipped = shipped_materials();
     const json& given = fields.need("materials");
@@ -116,35 +133,15 @@ class ConfigReader {
         if (std::ranges::find(test, name) == test.end()) others.push_back(name);
       return others;
     }
-    std::vector<std::string> result;
-    for (const std::string& name : fields.texts("materials")) {
-      if (is_material_file(name)) {
-        std::ranges::copy(files(fields, "materials", name), std::back_inserter(result));
-      } else if (std::ranges::binary_search(shipped, name)) {
-        result.push_back(name);
-      } else {
-        fields.refuse("materials", fmt::format("\"{}\" is no shipped material and no file", name),
-                      "choose names that partwise material list gives, all, training or test");
-      }
-    }
-    return result;
+    return names_or_files(fields, "materials", is_material_file, shipped, "is no shipped material and no file",
+                          "choose names that partwise material list gives, all, training or test");
   }
 
   std::vector<std::string> lights(JsonFields& fields) const {
     const std::vector<std::string> shipped = shipped_lights();
     if (fields.need("lights") == "all") return shipped;
-    std::vector<std::string> result;
-    for (const std::string& name : fields.texts("lights")) {
-      if (is_light_file(name)) {
-        std::ranges::copy(files(fields, "lights", name), std::back_inserter(result));
-      } else if (std::ranges::binary_search(shipped, name)) {
-        result.push_back(name);
-      } else {
-        fields.refuse("lights", fmt::format("\"{}\" is no shipped light and no .exr or .hdr file", name),
-                      fmt::format("take some of {}, or all", fmt::join(shipped, ", ")));
-      }
-    }
-    return result;
+    return names_or_files(fields, "lights", is_light_file, shipped, "is no shipped light and no .exr or .hdr file",
+                          fmt::format("take some of {}, or all", fmt::join(shipped, ", ")));
   }
 
   void read_rendering(JsonFields& fields) {
