@@ -1,6 +1,6 @@
-// What libFuzzer calls: the reader of MERL tables. Tables are of one size, which fuzzing would never reach: the bytes
-// are read as they are, and once more with what is missing of a whole file behind them. Whatever the bytes, the outcome
-// is a table of finite numbers or an InputError of one line.
+// What libFuzzer calls: one reader of measured materials, chosen by PARTWISE_FUZZ_FORMAT. MERL's tables are of one
+// size, which fuzzing would never reach: the bytes are read as they are, and once more with what is missing of a whole
+// file behind them. Whatever the bytes, the outcome is a material of finite numbers or an InputError of one line.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -10,12 +10,14 @@
 #include <string_view>
 
 #include "partwise/appearance/material/merl.h"
+#include "partwise/appearance/material/neural_brdf.h"
 #include "partwise/base/error.h"
 
 namespace {
 
 using namespace partwise;
 
+constexpr std::string_view format = PARTWISE_FUZZ_FORMAT;
 constexpr std::size_t whole = 12 + 24 * static_cast<std::size_t>(merl_bins);
 
 [[noreturn]] void give_up(const char* what) {
@@ -23,13 +25,23 @@ constexpr std::size_t whole = 12 + 24 * static_cast<std::size_t>(merl_bins);
   std::abort();
 }
 
-void expect_table_or_message(std::string_view bytes) {
+void read_table(std::string_view bytes) {
+  const MerlTable table = decode_merl("fuzz", bytes);
+  if (bytes.size() != whole) give_up("a table of another size");
+  for (int bin = 0; bin < 1024; ++bin) {  // where the bytes are
+    if (!table.value(bin).allFinite()) give_up("a value that is not finite");
+  }
+}
+
+void read_network(std::string_view bytes) {
+  const NeuralBrdf network = decode_neural_brdf("fuzz", bytes);
+  const Eigen::Vector3f up(0, 0, 1), aslant(0.6f, 0, 0.8f);
+  if (network(up, aslant).hasNaN()) give_up("a value that is no number");
+}
+
+void expect_material_or_message(std::string_view bytes) {
   try {
-    const MerlTable table = decode_merl("fuzz", bytes);
-    if (bytes.size() != whole) give_up("a table of another size");
-    for (int bin = 0; bin < 1024; ++bin) {  // where the bytes are
-      if (!table.value(bin).allFinite()) give_up("a value that is not finite");
-    }
+    format == "h5" ? read_network(bytes) : read_table(bytes);
   } catch (const InputError& error) {
     if (std::string_view(error.what()).find('\n') != std::string_view::npos) give_up("a message of several lines");
   }
@@ -39,10 +51,10 @@ void expect_table_or_message(std::string_view bytes) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::string bytes(reinterpret_cast<const char*>(data), size);
-  expect_table_or_message(bytes);
-  if (size >= 12 && size < whole) {
+  expect_material_or_message(bytes);
+  if (format == "binary" && size >= 12 && size < whole) {
     bytes.resize(whole);
-    expect_table_or_message(bytes);
+    expect_material_or_message(bytes);
   }
   return 0;
 }

@@ -1,5 +1,7 @@
 # Runs one fuzzed reader: the seeds of its format among the shipped files, what earlier runs kept, then new ones.
-file(GLOB seeds ${DATA}/outlines/*.${FORMAT} ${DATA}/outline_corpus/*.${FORMAT} ${DATA}/image_corpus/*.${FORMAT} ${DATA}/material_corpus/*.${FORMAT})
+set(folders corpus shape_corpus outlines outline_corpus image_corpus material_corpus)
+list(TRANSFORM folders REPLACE "(.+)" "${DATA}/\\1/*.${FORMAT}")
+file(GLOB seeds ${folders})
 file(MAKE_DIRECTORY ${FOLDER}/seeds ${FOLDER}/found)
 if(seeds)
   file(COPY ${seeds} DESTINATION ${FOLDER}/seeds)
