@@ -56,8 +56,6 @@ def measure(options, light, views, images):
 
 def main(words):
     options = parse(words)
-    for name in ("RANK", "WORLD_SIZE"):  # alone, whatever started this
-        os.environ.pop(name, None)
     results = {f"{light}, {views} views": [measure(options, light, views, images)
                                            for images in (options.images, 4 * options.images)]
                for light in options.lights for views in options.views}

@@ -14,6 +14,7 @@
 #include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <vector>
@@ -26,6 +27,11 @@ using partwise::Polygon;
 using partwise::Polygons;
 using partwise::Ring;
 using Point = Eigen::RowVector2d;
+
+struct Destroy {
+  void operator()(GEOSGeometry* geometry) const { GEOSGeom_destroy(geometry); }
+};
+using Geometry = std::unique_ptr<GEOSGeometry, Destroy>;
 
 GEOSCoordSequence* sequence(const Ring& ring) {
   const auto n = static_cast<unsigned>(ring.rows());
@@ -47,9 +53,9 @@ GEOSGeometry* collection(const Polygons& polygons, int type) {
   return GEOSGeom_createCollection(type, members.data(), static_cast<unsigned>(members.size()));
 }
 
-double area(const GEOSGeometry* shape) {
+double area(const Geometry& shape) {
   double result = NAN;
-  if (shape != nullptr) GEOSArea(shape, &result);
+  if (shape) GEOSArea(shape.get(), &result);
   return result;
 }
 
@@ -61,10 +67,9 @@ double distance(const Point& p, const Point& a, const Point& b) {
 
 double outer_depth(const Ring& ring) {
   // Corners of GEOS's hull, found again along the ring, cut it into chains; each is measured to its own chord.
-  GEOSGeometry* line = GEOSGeom_createLinearRing(sequence(ring));
-  GEOSGeometry* hull = GEOSConvexHull(line);
+  const Geometry line(GEOSGeom_createLinearRing(sequence(ring))), hull(GEOSConvexHull(line.get()));
   std::set<std::pair<double, double>> corners;
-  const GEOSCoordSequence* points = GEOSGeom_getCoordSeq(GEOSGetExteriorRing(hull));
+  const GEOSCoordSequence* points = GEOSGeom_getCoordSeq(GEOSGetExteriorRing(hull.get()));
   unsigned count = 0;
   GEOSCoordSeq_getSize(points, &count);
   for (unsigned i = 0; i < count; ++i) {
@@ -72,8 +77,6 @@ double outer_depth(const Ring& ring) {
     GEOSCoordSeq_getXY(points, i, &x, &y);
     corners.insert({x, y});
   }
-  GEOSGeom_destroy(hull);
-  GEOSGeom_destroy(line);
   const Eigen::Index n = ring.rows();
   std::vector<Eigen::Index> on;
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -127,22 +130,20 @@ nlohmann::ordered_json judge(const Polygons& shape, const Polygons& parts) {
   });
   double sum = 0, depth = 0;
   for (const Polygon& part : parts) {
-    GEOSGeometry* one = geometry(part);
-    invalid += GEOSisValid(one) == 1 ? 0 : 1;
+    const Geometry one(geometry(part));
+    invalid += GEOSisValid(one.get()) == 1 ? 0 : 1;
     sum += area(one);
-    GEOSGeom_destroy(one);
     depth = std::max(depth, outer_depth(part.outer));
     for (const Ring& hole : part.holes) depth = std::max(depth, hole_depth(hole));
   }
-  GEOSGeometry* whole = collection(shape, GEOS_MULTIPOLYGON);
-  GEOSGeometry* all = collection(parts, GEOS_GEOMETRYCOLLECTION);
-  GEOSGeometry* joined = GEOSUnaryUnion(all);
+  const Geometry whole(collection(shape, GEOS_MULTIPOLYGON)), all(collection(parts, GEOS_GEOMETRYCOLLECTION));
+  const Geometry joined(GEOSUnaryUnion(all.get()));
   const double size = area(whole);
   nlohmann::ordered_json result;
   result["parts"] = parts.size();
   result["area_error"] = std::abs(sum - size) / size;
-  result["outside"] = area(GEOSDifference(joined, whole)) / size;
-  result["missing"] = area(GEOSDifference(whole, joined)) / size;
+  result["outside"] = area(Geometry(GEOSDifference(joined.get(), whole.get()))) / size;
+  result["missing"] = area(Geometry(GEOSDifference(whole.get(), joined.get()))) / size;
   result["overlap"] = (sum - area(joined)) / size;
   result["foreign"] = foreign;
   result["invalid"] = invalid;

@@ -6,39 +6,24 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 
+#include "fuzz/outcome.h"
 #include "partwise/appearance/shapes/model_archive.h"
-#include "partwise/base/error.h"
 #include "partwise/geometry/mesh_io.h"
 
 namespace {
 
 using namespace partwise;
+using namespace partwise::fuzz;
 
 constexpr std::string_view format = PARTWISE_FUZZ_FORMAT;
-
-[[noreturn]] void give_up(const char* what) {
-  std::fprintf(stderr, "%s\n", what);
-  std::abort();
-}
 
 void expect_whole(const Mesh& mesh) {
   if (mesh.faces.rows() == 0) give_up("a mesh without faces");
   if (!mesh.vertices.allFinite()) give_up("a vertex that is not finite");
   if (mesh.faces.minCoeff() < 0 || mesh.faces.maxCoeff() >= mesh.vertices.rows()) give_up("a face of no vertices");
-}
-
-template <typename Read>
-void expect_message_or(const Read& read) {
-  try {
-    read();
-  } catch (const InputError& error) {
-    if (std::string_view(error.what()).find('\n') != std::string_view::npos) give_up("a message of several lines");
-  }
 }
 
 // Archives are read from files only: one in memory.

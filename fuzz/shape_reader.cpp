@@ -2,12 +2,10 @@
 // Whatever the bytes, the outcome is a valid shape or an InputError of one line.
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 
-#include "partwise/base/error.h"
+#include "fuzz/outcome.h"
 #include "partwise/geometry/polygon_formats.h"
 #include "partwise/geometry/polygon_io.h"
 #include "partwise/geometry/polygon_validity.h"
@@ -17,6 +15,7 @@
 namespace {
 
 using namespace partwise;
+using namespace partwise::fuzz;
 
 constexpr std::string_view format = PARTWISE_FUZZ_FORMAT;
 
@@ -31,20 +30,13 @@ PolygonFile read(const std::string& bytes, bool repair, bool lenient) {
   return valid_polygons(polygons(), repair, "fuzz");
 }
 
-[[noreturn]] void give_up(const char* what) {
-  std::fprintf(stderr, "%s\n", what);
-  std::abort();
-}
-
 void expect_shape_or_message(const std::string& bytes, bool repair, bool lenient) {
-  try {
+  expect_message_or([&] {
     const PolygonFile file = read(bytes, repair, lenient);
     if (file.polygons.empty()) give_up("a shape without polygons");
     if (find_fault(file.polygons)) give_up("a shape that is not valid");
     if (!repair && !file.repaired.empty()) give_up("a shape that was repaired though this was not wanted");
-  } catch (const InputError& error) {
-    if (std::string_view(error.what()).find('\n') != std::string_view::npos) give_up("a message of several lines");
-  }
+  });
 }
 
 // Masks are small here: what takes time is tracing many pixels, not reading them.

@@ -91,7 +91,9 @@ std::vector<double> face_areas(const Mesh& mesh) {
   areas.reserve(static_cast<std::size_t>(mesh.faces.rows()));
   for (const auto& f : mesh.faces.rowwise()) {
     const Point a = mesh.vertices.row(f[0]), b = mesh.vertices.row(f[1]), c = mesh.vertices.row(f[2]);
-    areas.push_back((b - a).cross(c - a).stableNorm() / 2);  // the square of an area may be no number
+    const Point normal = (b - a).cross(c - a);
+    // The square of an area may be no number; Eigen's stableNorm adds up as the vector happens to lie in memory.
+    areas.push_back(std::hypot(normal[0], normal[1], normal[2]) / 2);
   }
   return areas;
 }

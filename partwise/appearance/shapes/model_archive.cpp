@@ -95,6 +95,10 @@ Mesh ModelArchive::read(const std::string& id) const {
   const CatalogueModel& found = model(id);
   Mesh mesh = read_mesh(path_.string() + ":" + found.file, bytes(id));
   place_as_catalogued(mesh, found);
+  if (!mesh.vertices.allFinite()) {
+    throw InputError(path_.string() + ":" + found.file, "is too large once placed as the catalogue says",
+                     "mend the catalogue");
+  }
   return mesh;
 }
 
