@@ -91,6 +91,8 @@ Image image_of(const GBuffer& seen, const std::vector<Dsbrdf>& materials, const 
   std::vector<const ReflectanceMap*> worn;
   const LightTree tree(light);
   const LightSamples samples = light_samples(light);
+  maps.reserve(materials.size());
+  worn.reserve(materials.size());
   for (const Dsbrdf& material : materials)
     maps.push_back(fine ? ReflectanceMap(PatchSum(material, tree), 96) : ReflectanceMap(material, samples, 48));
   for (const ReflectanceMap& map : maps) worn.push_back(&map);
@@ -112,6 +114,7 @@ std::vector<Dsbrdf> brdfs(const std::vector<std::string>& names) {
 
 std::vector<std::string> for_parts(const std::vector<std::string>& names, int parts) {
   std::vector<std::string> worn;
+  worn.reserve(static_cast<std::size_t>(parts));
   for (int part = 0; part < parts; ++part) worn.push_back(names[static_cast<std::size_t>(part) % names.size()]);
   return worn;
 }
@@ -182,6 +185,7 @@ std::vector<Picture> tell_samples(std::span<const WornModel> models) {
                   .parts = [&](int shape) { return parts[static_cast<std::size_t>(shape)]; },
                   .views = 1};
   std::vector<EnvironmentLight> maps;
+  maps.reserve(lights.size());
   for (const std::string& light : lights) maps.push_back(light_of(light, light_rows / 2));
   std::vector<Picture> pictures;
   for (int number = 0; number < count; ++number) {

@@ -339,7 +339,7 @@ Mesh simplify_hull(const Mesh& hull, int max_vertices) {
   simplifier.collapse_to(max_vertices);
   for (int sweep = 0; sweep < 20 && simplifier.polish() > 1e-4; ++sweep) {
   }
-  const Mesh tetrahedron = enclosing_hull(enclosing_tetrahedron(round) * frame.transpose(), hull.vertices, centre);
+  Mesh tetrahedron = enclosing_hull(enclosing_tetrahedron(round) * frame.transpose(), hull.vertices, centre);
   PARTWISE_CHECK(tetrahedron.faces.rows(), ==, 4);
   if (simplifier.vertex_count() > max_vertices) return tetrahedron;
   Mesh simple = enclosing_hull(simplifier.vertices() * frame.transpose(), hull.vertices, centre);

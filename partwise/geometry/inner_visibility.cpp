@@ -64,6 +64,7 @@ InnerVisibility::InnerVisibility(const Mesh& mesh) {
   if (!(sphere.radius > 0) || normals.isZero(0))
     throw InputError("mesh", "no face has an area", "give a mesh with at least one proper triangle");
   const Vertices scaled = (mesh.vertices.rowwise() - sphere.centre) / sphere.radius;
+  // NOLINTNEXTLINE(modernize-make-unique): it cannot fill an aggregate that does not move.
   scene_.reset(new Scene{RayScene(scaled, mesh.faces, RTC_SCENE_FLAG_ROBUST), {}, normals.cast<float>()});
   const Points outer = scaled.cast<float>();
   scene_->inner.resize(outer.rows(), 3);

@@ -144,6 +144,7 @@ Polygons assemble_polygons(std::vector<Ring> rings, FillRule rule) {
   std::stable_sort(rings.begin(), rings.end(),
                    [](const Ring& a, const Ring& b) { return std::abs(signed_area(a)) > std::abs(signed_area(b)); });
   std::vector<Box> boxes;
+  boxes.reserve(rings.size());
   for (const Ring& ring : rings) boxes.push_back({ring.colwise().minCoeff(), ring.colwise().maxCoeff()});
   std::vector<int> winding(rings.size()), depth(rings.size()), owner(rings.size(), -1);
   Polygons polygons;

@@ -91,15 +91,16 @@ Coefficients<Scalar> coefficient_gradient(const std::vector<LightPixel<Scalar>>&
   return sum.cast<Scalar>();
 }
 
-#define PARTWISE_LIGHT_GRID(Scalar)                                                            \
-  template std::vector<LightPixel<Scalar>> light_grid(int, int);                               \
-  template std::vector<PixelLobes<Scalar>> pixel_lobes(const std::vector<LightPixel<Scalar>>&, \
-                                                       const Coefficients<Scalar>&);           \
-  template Coefficients<Scalar> coefficient_gradient(const std::vector<LightPixel<Scalar>>&,   \
-                                                     const std::vector<PixelLobes<Scalar>>&,   \
-                                                     const std::vector<PixelLobes<Scalar>>&);
-PARTWISE_LIGHT_GRID(float)
-PARTWISE_LIGHT_GRID(double)
-#undef PARTWISE_LIGHT_GRID
+template std::vector<LightPixel<float>> light_grid(int, int);
+template std::vector<PixelLobes<float>> pixel_lobes(const std::vector<LightPixel<float>>&, const Coefficients<float>&);
+template Coefficients<float> coefficient_gradient(const std::vector<LightPixel<float>>&,
+                                                  const std::vector<PixelLobes<float>>&,
+                                                  const std::vector<PixelLobes<float>>&);
+template std::vector<LightPixel<double>> light_grid(int, int);
+template std::vector<PixelLobes<double>> pixel_lobes(const std::vector<LightPixel<double>>&,
+                                                     const Coefficients<double>&);
+template Coefficients<double> coefficient_gradient(const std::vector<LightPixel<double>>&,
+                                                   const std::vector<PixelLobes<double>>&,
+                                                   const std::vector<PixelLobes<double>>&);
 
 }  // namespace partwise

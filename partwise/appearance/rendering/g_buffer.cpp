@@ -40,10 +40,10 @@ CameraRay camera_ray(const Camera& camera, double aspect, double across, double 
 CameraRay sample_ray(const Camera& camera, const RasterSize& size, std::size_t sample) {
   const auto samples = static_cast<std::size_t>(size.samples), width = static_cast<std::size_t>(size.width);
   const Eigen::Vector2d place = sample_place(static_cast<int>(sample % samples), size.samples);
-  const std::size_t pixel = sample / samples;
+  const std::size_t pixel = sample / samples, row = pixel / width;
   return camera_ray(camera, static_cast<double>(size.width) / size.height,
                     (static_cast<double>(pixel % width) + place.x()) / size.width,
-                    (static_cast<double>(pixel / width) + place.y()) / size.height);
+                    (static_cast<double>(row) + place.y()) / size.height);
 }
 
 Mesh joined(std::span<const RenderMesh> meshes) {

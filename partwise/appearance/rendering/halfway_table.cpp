@@ -15,6 +15,7 @@ constexpr double quarter = std::numbers::pi / 2;
 
 std::vector<float> all_knots() {
   std::vector<float> knots;
+  knots.reserve(HalfwayTable::places);
   for (int place = 0; place < HalfwayTable::places; ++place) knots.push_back(HalfwayTable::knot(place));
   return knots;
 }

@@ -72,7 +72,7 @@ std::vector<int> corners(const Mesh& mesh, const std::vector<int>& faces) {
   for (const int f : faces)
     for (const int v : mesh.faces.row(f)) vertices.push_back(v);
   std::ranges::sort(vertices);
-  vertices.erase(std::ranges::unique(vertices).begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   return vertices;
 }
 

@@ -122,11 +122,11 @@ class ConfigReader {
   }
 
   std::vector<std::string> materials(JsonFields& fields) const {
-    const std::vector<std::string> shipped = shipped_materials();
+    std::vector<std::string> shipped = shipped_materials();
     const json& given = fields.need("materials");
     if (given == "all") return shipped;
     if (given == "training" || given == "test") {
-      const std::vector<std::string> test = test_materials();
+      std::vector<std::string> test = test_materials();
       if (given == "test") return test;
       std::vector<std::string> others;
       for (const std::string& name : shipped)
@@ -138,7 +138,7 @@ class ConfigReader {
   }
 
   std::vector<std::string> lights(JsonFields& fields) const {
-    const std::vector<std::string> shipped = shipped_lights();
+    std::vector<std::string> shipped = shipped_lights();
     if (fields.need("lights") == "all") return shipped;
     return names_or_files(fields, "lights", is_light_file, shipped, "is no shipped light and no .exr or .hdr file",
                           fmt::format("take some of {}, or all", fmt::join(shipped, ", ")));

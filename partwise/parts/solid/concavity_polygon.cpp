@@ -95,7 +95,8 @@ std::vector<double> shortest_path_concavity(std::span<const Point2> v) {
 
 std::vector<Point2> flatten_valley(std::span<const Point> path) {
   std::vector<Point2> flat(path.size());
-  const Point a = path.front(), ab = path.back() - a;
+  const Point& a = path.front();
+  const Point ab = path.back() - a;
   const double length = ab.norm();
   const Point along = length > 0 ? Point(ab / length) : Point::Zero();
   for (std::size_t i = 0; i < path.size(); ++i) {

@@ -239,6 +239,7 @@ std::vector<int> majority(const Subdivision& cut, const std::vector<int>& cut_la
     area[cut.parent[f]][cut_labels[f]] += across.norm();
   }
   std::vector<int> labels;
+  labels.reserve(area.size());
   for (const auto& shares : area)
     labels.push_back(std::max_element(shares.begin(), shares.end(), [](const auto& x, const auto& y) {
                        return x.second < y.second;

@@ -22,6 +22,7 @@ std::vector<HullPart> split_to_tolerance(const Mesh& mesh, const SurfaceQuery& s
   };
   const auto parts_of = [&](std::vector<std::vector<int>> groups) {
     std::vector<HullPart> pieces;
+    pieces.reserve(groups.size());
     for (auto& group : groups) pieces.push_back(hull_part(mesh, std::move(group), settings.minimum_thickness));
     return pieces;
   };

@@ -218,7 +218,7 @@ void PathSearch::from(int source, std::span<const int> targets) {
   std::size_t queued = 1;
   for (std::size_t at = 0; queued > 0; ++at) {
     auto& bucket = ring_[at % ring_.size()];
-    for (std::size_t i = 0; i < bucket.size(); ++i) {  // It may grow.
+    for (std::size_t i = 0; i < bucket.size(); ++i) {  // NOLINT(modernize-loop-convert): it may grow.
       const auto [distance, v] = bucket[i];
       if (distance > distance_[v]) continue;  // A shorter way was found since.
       for (int s = graph_.first[v]; s < graph_.first[v + 1]; ++s) {

@@ -60,6 +60,7 @@ std::vector<std::vector<int>> neighbours_by_vertex(const Mesh& mesh, const std::
       for (int b : here)
         if (a != b) sets[a].insert(b);
   std::vector<std::vector<int>> neighbours;
+  neighbours.reserve(sets.size());
   for (const auto& set : sets) neighbours.emplace_back(set.begin(), set.end());
   return neighbours;
 }

@@ -49,8 +49,8 @@ std::array<Eigen::Vector3d, 13> plane_normals(const Centroids& c) {
   std::array<Eigen::Vector3d, 13> normals;
   std::size_t n = 0;
   for (int i = 0; i < 27; ++i) {
-    const Eigen::Vector3d mix(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
-    if (i > 13) normals[n++] = (axes * mix).normalized();  // One of each pair of opposites.
+    const Eigen::Vector3i mix(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+    if (i > 13) normals[n++] = (axes * mix.cast<double>()).normalized();  // One of each pair of opposites.
   }
   return normals;
 }
@@ -88,6 +88,7 @@ std::vector<std::vector<int>> split_by_plane(const Mesh& mesh, const std::vector
     const Point mean = c.at.colwise().mean();
     if (through != mean) return split_by_plane(mesh, faces, mean, minimum_thickness);
     std::vector<std::vector<int>> single;  // Faces that no plane can tell apart.
+    single.reserve(faces.size());
     for (int f : faces) single.push_back({f});
     return single;
   }

@@ -70,7 +70,7 @@ void write_meshes_beside(const std::filesystem::path& path, const RobotBody& bod
 MassProperties body_mass(const Mesh& mesh, std::span<const Mesh> hulls) {
   if (is_watertight(mesh)) {
     try {
-      const MassProperties own = mass_properties(mesh);
+      MassProperties own = mass_properties(mesh);
       if (is_physical(own)) return own;
     } catch (const InputError&) {  // It encloses no volume, as a doubled sheet does; its thickened hulls do.
     }

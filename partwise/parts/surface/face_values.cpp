@@ -117,7 +117,7 @@ Eigen::VectorXd normalised(const Eigen::VectorXd& values, double bend) {
   if (values.size() == 0) return values;
   const double low = values.minCoeff(), range = values.maxCoeff() - low;
   if (!(range > 0)) return Eigen::VectorXd::Zero(values.size());
-  const Eigen::VectorXd unit = (values.array() - low) / range;
+  Eigen::VectorXd unit = (values.array() - low) / range;
   if (bend <= 0) return unit;
   return (1 + bend * unit.array()).log() / std::log1p(bend);
 }

@@ -35,6 +35,7 @@ std::vector<int> merge_pieces(PieceGraph graph, const BorderModel& model) {
   const auto score = [&](const PieceGraph& now, int a, int b) { return model.likelihood(now.terms(a, b)); };
   merge_pieces(graph, score, model.threshold, [&](int a, int b) { sets.join(a, b); });
   std::vector<int> result;
+  result.reserve(static_cast<std::size_t>(graph.pieces()));
   for (int piece = 0; piece < graph.pieces(); ++piece) result.push_back(sets.find(piece));
   return result;
 }
