@@ -37,10 +37,11 @@ def parse(words):
 
 
 def chosen_mode(options, people):
-    """What is judged, in words for the history, and the function from a mesh to its measures."""
+    """What is judged, as the history keeps it, and the function from a mesh to its measures."""
     if options.people:
-        return "people", people.first_against_others
-    return "labels", lambda mesh: people.measures(mesh, options.labels / f"{mesh.stem}.seg")
+        return {"mode": "people"}, people.first_against_others
+    measures_of = lambda mesh: people.measures(mesh, options.labels / f"{mesh.stem}.seg")
+    return {"mode": "labels", "labels": options.labels.name}, measures_of
 
 
 def main(words):
@@ -49,7 +50,7 @@ def main(words):
     paths = meshes.chosen(options.folder, options.only, category)
     if not paths:
         sys.exit(f"segmentation_bench: no meshes chosen in {options.folder}")
-    name, measures_of = chosen_mode(options, People(options.seg_dir, options.program))
+    judged, measures_of = chosen_mode(options, People(options.seg_dir, options.program))
     results = []
     with ThreadPoolExecutor(options.jobs) as pool:
         for result in pool.map(lambda path: segmentation.judged(path, measures_of), paths):
@@ -62,7 +63,7 @@ def main(words):
         if result.trouble:
             print(result.trouble)
     if options.record:
-        print(f"recorded in {history.record('segmentation', {'mode': name} | segmentation.means(results))}")
+        print(f"recorded in {history.record('segmentation', judged | segmentation.means(results))}")
     return 0
 
 

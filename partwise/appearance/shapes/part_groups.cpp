@@ -78,6 +78,7 @@ std::vector<int> corners(const Mesh& mesh, const std::vector<int>& faces) {
 
 Tree tree_of(const Mesh& mesh, const std::vector<int>& vertices) {
   std::vector<Position> positions;
+  positions.reserve(vertices.size());
   for (const int v : vertices) positions.push_back(position(mesh, v));
   return Tree(positions);
 }

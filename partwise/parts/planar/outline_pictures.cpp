@@ -21,7 +21,7 @@ constexpr std::array colours{"#8ecae6", "#ffb703", "#b7e4c7", "#f4978e", "#cdb4d
 class Sheet {
  public:
   Sheet(std::span<const Polygon> shape, const PictureSettings& settings)
-      : down_(settings.y_down), ground_(settings.ground), box_(bounding_box(shape)) {
+      : box_(bounding_box(shape)), down_(settings.y_down), ground_(settings.ground) {
     const double longer = std::max(box_.sizes().maxCoeff(), 1e-300);
     scale_ = settings.size * 0.94 / longer;
     margin_ = settings.size * 0.03;
