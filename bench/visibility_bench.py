@@ -36,6 +36,7 @@ def parse(words):
     add("--medial", action="store_true", help="points of the medial axis against the judge's")
     add = parser.add_argument
     add("--amplitudes", type=float, nargs="*", default=histograms.AMPLITUDES, help="of --histograms, shares of R")
+    add("--smooth", type=int, default=0, help="of --histograms, rounds of smoothing before values are taken")
     add("--samples", type=int, default=200000, help="of --medial, that the judge draws")
     options = parser.parse_args(words)
     for program in (options.program, *(options.tools / name for name in ("visibility_compare", "mesh_variant", "medial_check"))):
@@ -53,7 +54,7 @@ def measured(options, settings, paths, category, jobs):
     if options.growth:
         return "growth", visibility.growth(settings, paths, options.growth, category, jobs)
     if options.histograms:
-        return "histograms", histograms.noise_and_pose(settings, paths, category, tuple(options.amplitudes), jobs)
+        return "histograms", histograms.noise_and_pose(settings, paths, category, tuple(options.amplitudes), options.smooth, jobs)
     return "medial", medial.medial(settings, paths, category, options.samples, jobs)
 
 

@@ -551,6 +551,7 @@ class Feature(CommandLine):
                                 (["--kind", "cvf-weak", "--method", "bfs"], "--method"), (["--kind", "sdf", "--method", "bfs"], "--method"),
                                 (["--kind", "cvf", "--weak-threshold", "0.2"], "--weak-threshold"),
                                 (["--kind", "cvf-weak", "--weak-threshold", "0"], "--weak-threshold"),
+                                (["--kind", "cvf", "--smooth", "-1"], "--smooth"),
                                 (["--kind", "cvf", "--png", "v.jpg"], ".png"),
                                 (["--kind", "cvf", "--values", "cubes.off"], "same file")):
             self.assert_refused(self.feature(*arguments), 2, word, "--help")

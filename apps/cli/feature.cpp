@@ -13,6 +13,7 @@
 #include "partwise/appearance/colouring.h"
 #include "partwise/base/atomic_file.h"
 #include "partwise/geometry/mesh_io.h"
+#include "partwise/geometry/smoothing.h"
 #include "partwise/parts/surface/continuous_visibility.h"
 #include "partwise/parts/surface/shape_diameter.h"
 #include "picture.h"
@@ -25,6 +26,7 @@ struct Options {
   std::string mesh, values, glb, png;
   std::optional<VisibilityKind> kind;  // none: the shape diameter
   VisibilitySettings settings;
+  int smooth = 0;  // rounds
 };
 
 const Choices<std::optional<VisibilityKind>> kinds = {{"cvf", VisibilityKind::cvf},
@@ -38,7 +40,8 @@ const Choices<VisibilityMethod> methods = {{"filter", VisibilityMethod::filter},
                                            {"filter-printed", VisibilityMethod::filter_printed}};
 
 // Values of the vertices, and by how many visibility tests.
-VisibilityFeature values_of(const Mesh& mesh, const Options& options, const Progress& progress) {
+VisibilityFeature values_of(const Mesh& input, const Options& options, const Progress& progress) {
+  const Mesh mesh = options.smooth > 0 ? smoothed(input, options.smooth) : input;
   if (!options.kind) return {.values = vertex_means(mesh, shape_diameter(mesh, {}, progress).values), .tests = 0};
   VisibilitySettings settings = options.settings;
   settings.kind = *options.kind;
@@ -54,6 +57,7 @@ void report(const Options& options, const VisibilityFeature& feature, Run& run) 
   json["mean"] = feature.values.mean();
   json["kind"] = kind;
   if (options.kind && options.kind != VisibilityKind::weak) json["method"] = name_of(methods, options.settings.method);
+  if (options.smooth > 0) json["smooth"] = options.smooth;
   json["vertices"] = feature.values.size();
   json["input"] = options.mesh;
   const std::string written =
@@ -99,6 +103,10 @@ Action add(CLI::App& command) {
   const CLI::Option* threshold =
       add_positive(command, "--weak-threshold", settings.weak_threshold,
                    "Of cvf-weak: the longest hidden part of a path, as a share of the bounding-sphere radius [0.1]");
+  add_count(
+      command, "--smooth", options->smooth, 0,
+      "Of noisy meshes, scans for example: take the values from the surface after N rounds of smoothing (Taubin), "
+      "10 for instance [0]");
   add_file(command, "--values", options->values, "Write the value of each vertex, one a line");
   add_file(command, "--glb", options->glb, "Write the mesh, coloured from dark blue, least, to yellow, most (.glb)");
   add_file(command, "--png", options->png, "Draw the mesh in the same colours (.png)");

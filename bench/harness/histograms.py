@@ -56,26 +56,29 @@ def share_nearer(near, far):
         len(near) * len(far))
 
 
-def histograms_of(settings, mesh, noise, seed=1):
-    """By kind, of the mesh with noise. Errors: ValueError with a program's complaint."""
+def histograms_of(settings, mesh, noise, smooth=0, seed=1):
+    """By kind, of the mesh with noise, values and areas taken after so many rounds of smoothing. Errors: ValueError with a
+    program's complaint."""
     with tempfile.TemporaryDirectory() as folder:
         copy, values = Path(folder) / f"{mesh.stem}.off", Path(folder) / "values.txt"
         process.expect([settings.tools / "mesh_variant", mesh, copy, "--noise", noise, "--seed", seed],
                        settings.time_limit)
-        areas = vertex_areas(*meshes.read_off(copy))
+        even = Path(folder) / "even.off"
+        process.expect([settings.tools / "mesh_variant", copy, even, "--smooth", smooth], settings.time_limit)
+        areas = vertex_areas(*meshes.read_off(even))
         found = {}
         for kind in KINDS:
-            process.expect([settings.program, "feature", copy, "--kind", kind, "--values", values, "--threads",
+            process.expect([settings.program, "feature", copy, "--kind", kind, "--smooth", smooth, "--values", values, "--threads",
                             settings.threads, "--quiet"], settings.time_limit)
             found[kind] = histogram([float(line) for line in values.read_text().split()], areas, kind)
         return found
 
 
-def noise_and_pose(settings, paths, category, amplitudes, jobs):
+def noise_and_pose(settings, paths, category, amplitudes, smooth, jobs):
     """Noise: a mesh and its noisy copy. Pose: two meshes of a category of POSES. Other: two of different categories."""
     def one(path):
         try:
-            return {noise: histograms_of(settings, path, noise) for noise in (0, *amplitudes)}
+            return {noise: histograms_of(settings, path, noise, smooth) for noise in (0, *amplitudes)}
         except ValueError as error:
             return str(error)
 
@@ -101,7 +104,7 @@ def noise_and_pose(settings, paths, category, amplitudes, jobs):
     print("earth mover's distances in octaves, means; nearer: how often such a pair is nearer than one of two categories")
     for trouble in troubles:
         print(trouble)
-    return {"finished": len(found), "pairs": {name: len(pairs) for name, pairs in groups.items()}, "kinds": figures}
+    return {"finished": len(found), "smooth": smooth, "pairs": {name: len(pairs) for name, pairs in groups.items()}, "kinds": figures}
 
 
 def pairs_of(found, category, amplitudes):

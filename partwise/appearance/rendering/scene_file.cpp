@@ -4,11 +4,11 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "partwise/appearance/json_fields.h"
 #include "partwise/appearance/material/material_files.h"
 #include "partwise/appearance/material/microfacet_brdf.h"
 #include "partwise/appearance/shapes/shape_fields.h"
 #include "partwise/base/error.h"
+#include "partwise/base/json_fields.h"
 #include "partwise/base/read_bytes.h"
 #include "partwise/geometry/mesh_io.h"
 #include "partwise/geometry/topology.h"

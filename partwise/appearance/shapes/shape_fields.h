@@ -1,8 +1,8 @@
 // How JSON files say which parts a shape has: "parts", "groups" and "tolerance". Internal to this room.
 #pragma once
 
-#include "partwise/appearance/json_fields.h"
 #include "partwise/appearance/shapes/shape_file.h"
+#include "partwise/base/json_fields.h"
 
 namespace partwise {
 

@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "partwise/appearance/json_fields.h"
 #include "partwise/appearance/material/material_files.h"
 #include "partwise/appearance/shapes/model_archive.h"
 #include "partwise/appearance/shapes/shape_fields.h"
 #include "partwise/appearance/synthesis/file_patterns.h"
 #include "partwise/base/error.h"
+#include "partwise/base/json_fields.h"
 #include "partwise/base/read_bytes.h"
 
 namespace partwise {

@@ -5,37 +5,14 @@
 #include <numeric>
 #include <utility>
 
+#include "partwise/base/draw.h"
 #include "partwise/base/error.h"
-#include "partwise/base/splitmix.h"
 
 namespace partwise {
 namespace {
 
 // What a random number is for.
 enum class Purpose : std::uint64_t { shape, light, turn, material, view };
-
-class Draw {
- public:
-  Draw(std::uint64_t seed, std::uint64_t combination, Purpose purpose)
-      : state_(splitmix(splitmix(splitmix(seed + splitmix_step) + combination) +
-                        static_cast<std::uint64_t>(purpose) * splitmix_step)) {}
-
-  double unit() { return static_cast<double>(next() >> 11) * 0x1p-53; }  // in [0, 1)
-  int below(int count) { return static_cast<int>(unit() * count); }
-
-  // `count` different numbers below `all`, in the order drawn (Fisher, Yates).
-  std::vector<int> different(int count, int all) {
-    std::vector<int> numbers(static_cast<std::size_t>(all));
-    std::iota(numbers.begin(), numbers.end(), 0);
-    for (int i = 0; i < count; ++i) std::swap(numbers[i], numbers[i + below(all - i)]);
-    numbers.resize(static_cast<std::size_t>(count));
-    return numbers;
-  }
-
- private:
-  std::uint64_t next() { return splitmix(state_ += splitmix_step); }
-  std::uint64_t state_;
-};
 
 void check(const SamplePlan& plan) {
   for (const auto& [name, count] :
@@ -54,7 +31,7 @@ Sample sample(const SamplePlan& plan, std::uint64_t number) {
   check(plan);
   const auto views = static_cast<std::uint64_t>(plan.views);
   const std::uint64_t combination = number / views;
-  const auto draw = [&](Purpose purpose) { return Draw(plan.seed, combination, purpose); };
+  const auto draw = [&](Purpose purpose) { return Draw(plan.seed, combination, static_cast<std::uint64_t>(purpose)); };
   Sample result;
   result.shape = draw(Purpose::shape).below(plan.shapes);
   result.light = draw(Purpose::light).below(plan.lights);

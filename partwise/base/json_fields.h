@@ -1,4 +1,4 @@
-// The fields of a JSON object, each taken once and checked; what is left over is refused. Internal to this room.
+// The fields of a JSON object, each taken once and checked; what is left over is refused.
 #pragma once
 
 #include <cmath>
