@@ -1,4 +1,5 @@
-// The program `partwise`: options, threads, messages and exit codes that all verbs share. The verbs are in verbs.h.
+// The program `partwise`, and partwise-learning: options, threads, messages and exit codes that all verbs share. Which
+// verbs there are is said by the verbs.cpp that it is linked with.
 //
 // Exit 0: done, and every output that was asked for is there. 1: cannot be done. 2: wrong usage. 130, 143: stopped by
 // Ctrl-C or a termination signal. Unless the exit is 0 nothing was written and standard error has one line that says
@@ -16,9 +17,12 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "learning_verbs.h"
 #include "options.h"
 #include "partwise/base/atomic_file.h"
 #include "partwise/base/error.h"
@@ -127,15 +131,26 @@ int execute(const Command& command) {
   return exit_cannot;
 }
 
+// Verbs that the other program has.
+std::span<const LearningVerb> elsewhere() {
+  const bool here = verbs().front()->name == std::string_view(learning_verbs.front().name);
+  return here ? std::span<const LearningVerb>() : learning_verbs;
+}
+
 int parse_and_execute(int argc, char** argv) {
+  if (argc > 1 && std::ranges::find(elsewhere(), std::string_view(argv[1]), &LearningVerb::name) != elsewhere().end()) {
+    return become_learning_program(argv);
+  }
   CLI::App program("Turns shapes into parts.", "partwise");
   program.set_version_flag("--version", "partwise " PARTWISE_VERSION);
   program.get_formatter()->label("SUBCOMMAND", "VERB");
   program.get_formatter()->label("REQUIRED", "(required)");
   program.footer("partwise VERB --help says more and gives an example.");
   std::vector<std::unique_ptr<Command>> commands;
-  commands.reserve(verbs.size());
-  for (const Verb* verb : verbs) commands.push_back(add_command(program, *verb));
+  commands.reserve(verbs().size());
+  for (const Verb* verb : verbs()) commands.push_back(add_command(program, *verb));
+
+  for (const LearningVerb& verb : elsewhere()) program.add_subcommand(verb.name, verb.summary)->group("Verbs");
 
   const Command* chosen = nullptr;
   try {

@@ -23,6 +23,12 @@ class MeshBuilder {
   // A polygon: its corners, then the end of it. Indices must name vertices by the time of build().
   void add_corner(std::int64_t vertex) { corners_.push_back(static_cast<int>(vertex)); }
   void end_face() { ends_.push_back(corners_.size()); }
+  // The same, where exporters leave edges and points among the faces: of one or two corners, the last is repeated until
+  // the face is a degenerate triangle.
+  void end_any_face() {
+    while (corners_of_open_face() < 3) corners_.push_back(corners_.back());
+    end_face();
+  }
   std::size_t corners_of_open_face() const { return corners_.size() - (ends_.empty() ? 0 : ends_.back()); }
   std::size_t face_count() const { return ends_.size(); }
 

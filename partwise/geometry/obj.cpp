@@ -42,12 +42,10 @@ void read_face(TextScanner& scanner, MeshBuilder& builder, std::optional<Forward
     }
     builder.add_corner(vertex);
   }
-  if (builder.corners_of_open_face() < 3) {
-    scanner.fail(fmt::format("face {} has {} corners, at least three are needed", builder.face_count(),
-                             builder.corners_of_open_face()),
-                 "remove the face");
+  if (builder.corners_of_open_face() == 0) {
+    scanner.fail(fmt::format("face {} has no corners", builder.face_count()), "remove the face");
   }
-  builder.end_face();
+  builder.end_any_face();
 }
 
 // An object's name stands on one line and has no blanks.

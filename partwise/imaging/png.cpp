@@ -89,7 +89,40 @@ void check_size(const std::string& file, png_structp png, png_infop info, std::s
   }
 }
 
-Image decode_plain(const std::string& file, std::string_view bytes) {
+}  // namespace
+
+std::string encode_png(const Image& image, PngCodes codes) {
+  constexpr std::array<int, 4> colour_types{PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
+                                            PNG_COLOR_TYPE_RGB_ALPHA};
+  PARTWISE_CHECK(image.channels, >=, 1);
+  PARTWISE_CHECK(image.channels, <=, 4);
+  const int colour_type = colour_types[static_cast<std::size_t>(image.channels - 1)];
+  const std::vector<png_byte> samples = samples_of(image, codes);
+  const std::size_t row_size = samples.size() / static_cast<std::size_t>(image.height);
+
+  std::string bytes;
+  Writer writer;
+  const bool written = guarded(writer.png, [&] {
+    png_set_write_fn(writer.png, &bytes, append, nullptr);
+    png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height),
+                 codes == PngCodes::plain16 ? 16 : 8, colour_type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
+    if (codes == PngCodes::srgb) png_set_sRGB(writer.png, writer.info, PNG_sRGB_INTENT_PERCEPTUAL);
+    png_write_info(writer.png, writer.info);
+    for (std::size_t row = 0; row < samples.size(); row += row_size) png_write_row(writer.png, samples.data() + row);
+    png_write_end(writer.png, writer.info);
+  });
+  PARTWISE_CHECK(written ? "" : writer.error, ==, std::string());
+  return bytes;
+}
+
+void write_png(const std::filesystem::path& path, const Image& image, PngCodes codes) {
+  write_file(path, encode_png(image, codes));
+}
+
+Image read_png(const std::filesystem::path& path) { return decode_png(path.string(), read_bytes(path)); }
+
+Image decode_plain_png(const std::string& file, std::string_view bytes) {
   Reader reader;
   Image image;
   std::string_view rest = bytes;
@@ -127,43 +160,10 @@ Image decode_plain(const std::string& file, std::string_view bytes) {
   return image;
 }
 
-}  // namespace
-
-std::string encode_png(const Image& image, PngCodes codes) {
-  constexpr std::array<int, 4> colour_types{PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
-                                            PNG_COLOR_TYPE_RGB_ALPHA};
-  PARTWISE_CHECK(image.channels, >=, 1);
-  PARTWISE_CHECK(image.channels, <=, 4);
-  const int colour_type = colour_types[static_cast<std::size_t>(image.channels - 1)];
-  const std::vector<png_byte> samples = samples_of(image, codes);
-  const std::size_t row_size = samples.size() / static_cast<std::size_t>(image.height);
-
-  std::string bytes;
-  Writer writer;
-  const bool written = guarded(writer.png, [&] {
-    png_set_write_fn(writer.png, &bytes, append, nullptr);
-    png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height),
-                 codes == PngCodes::plain16 ? 16 : 8, colour_type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-                 PNG_FILTER_TYPE_DEFAULT);
-    if (codes == PngCodes::srgb) png_set_sRGB(writer.png, writer.info, PNG_sRGB_INTENT_PERCEPTUAL);
-    png_write_info(writer.png, writer.info);
-    for (std::size_t row = 0; row < samples.size(); row += row_size) png_write_row(writer.png, samples.data() + row);
-    png_write_end(writer.png, writer.info);
-  });
-  PARTWISE_CHECK(written ? "" : writer.error, ==, std::string());
-  return bytes;
-}
-
-void write_png(const std::filesystem::path& path, const Image& image, PngCodes codes) {
-  write_file(path, encode_png(image, codes));
-}
-
-Image read_png(const std::filesystem::path& path) { return decode_png(path.string(), read_bytes(path)); }
-
-Image read_plain_png(const std::filesystem::path& path) { return decode_plain(path.string(), read_bytes(path)); }
+Image read_plain_png(const std::filesystem::path& path) { return decode_plain_png(path.string(), read_bytes(path)); }
 
 Image decode_png(const std::string& file, std::string_view bytes) {
-  Image image = decode_plain(file, bytes);
+  Image image = decode_plain_png(file, bytes);
   for (std::size_t i = 0; i < image.values.size(); ++i) {
     if (is_colour(i, image.channels)) image.values[i] = linear_from_srgb(image.values[i]);
   }

@@ -26,5 +26,6 @@ Image read_png(const std::filesystem::path& path);
 Image decode_png(const std::string& file, std::string_view bytes);
 // The codes over the largest code, whatever curve they have.
 Image read_plain_png(const std::filesystem::path& path);
+Image decode_plain_png(const std::string& file, std::string_view bytes);
 
 }  // namespace partwise

@@ -234,6 +234,14 @@ std::vector<std::string> test_materials() {
   return decoded(path.string(), [&] { return json.at("test").get<std::vector<std::string>>(); });
 }
 
+std::vector<std::string> training_materials() {
+  const std::vector<std::string> test = test_materials();
+  std::vector<std::string> others;
+  for (const std::string& name : shipped_materials())
+    if (std::ranges::find(test, name) == test.end()) others.push_back(name);
+  return others;
+}
+
 DsbrdfBasis shipped_basis() { return read_basis(shared_file("models/material_basis.json")); }
 
 }  // namespace partwise

@@ -43,10 +43,11 @@ bool is_material_file(const std::string& name);
 std::shared_ptr<const Brdf> find_material(const std::string& name, const std::filesystem::path& folder = {});
 
 // What ships in models/: fits of the hundred MERL materials, sorted by name; the twenty that experiments keep for
-// tests; the basis made from the other eighty.
+// tests, and the other eighty; the basis made from these.
 std::vector<std::string> shipped_materials();
 MaterialFile shipped_material(const std::string& name);
 std::vector<std::string> test_materials();
+std::vector<std::string> training_materials();
 DsbrdfBasis shipped_basis();
 
 }  // namespace partwise

@@ -125,14 +125,8 @@ class ConfigReader {
     std::vector<std::string> shipped = shipped_materials();
     const json& given = fields.need("materials");
     if (given == "all") return shipped;
-    if (given == "training" || given == "test") {
-      std::vector<std::string> test = test_materials();
-      if (given == "test") return test;
-      std::vector<std::string> others;
-      for (const std::string& name : shipped)
-        if (std::ranges::find(test, name) == test.end()) others.push_back(name);
-      return others;
-    }
+    if (given == "training") return training_materials();
+    if (given == "test") return test_materials();
     return names_or_files(fields, "materials", is_material_file, shipped, "is no shipped material and no file",
                           "choose names that partwise material list gives, all, training or test");
   }

@@ -1,0 +1,77 @@
+// partwise train: a configuration to a trained network.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "learning_verbs.h"
+#include "options.h"
+#include "partwise/editing/editing_training.h"
+#include "verbs.h"
+
+namespace partwise::cli {
+namespace {
+
+struct Options {
+  std::string config, output;
+  bool resume = false;
+};
+
+EditingTraining read_config(const Options& options, const Run& run) {
+  EditingTraining training = read_editing_training(options.config);
+  if (!options.output.empty()) training.loop.output = options.output;
+  if (training.loop.output.empty()) {
+    throw InputError(options.config, "names no output folder", "give it \"output\", or the option -o");
+  }
+  if (run.seed != 0) training.loop.seed = training.samples.seed = run.seed;
+  return training;
+}
+
+void train_network(const Options& options, Run& run) {
+  run.outputs.add_input("CONFIG", options.config);
+  const EditingTraining training = run.stage("read", [&] { return read_config(options, run); });
+  const Rank rank = rank_from_environment();
+  run.if_stopped = "a checkpoint was written, and --resume goes on from there";
+  const TrainingReport report =
+      run.stage("train", [&] { return train_editing(training, rank, options.resume, run.progress); });
+  run.report["step"] = report.step;
+  run.report["loss"] = report.loss;
+  if (std::isfinite(report.best)) run.report["validation_loss"] = report.best;
+  run.report["rank"] = rank.rank;
+  run.report["ranks"] = rank.size;
+  run.report["input"] = options.config;
+  run.report["output"] = training.loop.output.string();
+  run.summary = fmt::format("{}: {} steps, loss {:.5g}\nwrote into {}", options.config, report.step, report.loss,
+                            training.loop.output.string());
+}
+
+Action add(CLI::App& command) {
+  const auto options = std::make_shared<Options>();
+  command.add_option("CONFIG", options->config, "What is to be trained, on what, and how (.json)")
+      ->required()
+      ->type_name("");
+  command.add_flag("--resume", options->resume, "Go on from the output folder's checkpoint, if there is one");
+  add_file(command, "-o", options->output, "The folder of the training, in place of the configuration's")
+      ->type_name("DIR");
+  return [options](Run& run) { train_network(*options, run); };
+}
+
+}  // namespace
+
+const Verb train_verb = {
+    .name = train_line.name,
+    .summary = train_line.summary,
+    .details =
+        "Writes OUT/checkpoint.pt to go on from, OUT/best.pt with the least validation loss, OUT/log.jsonl, and event "
+        "files\n"
+        "for TensorBoard. Under torchrun, mpirun or srun processes share each batch. Stopped at any moment, --resume\n"
+        "goes on, with the same losses. docs/training.md says what a configuration holds.",
+    .example =
+        "  partwise train examples/editing.json -o out/editing\n"
+        "  partwise train examples/editing.json -o out/editing --resume",
+    .add = add,
+};
+
+}  // namespace partwise::cli

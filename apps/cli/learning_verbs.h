@@ -1,0 +1,23 @@
+// Verbs that need libtorch live in a program of their own, partwise-learning, which partwise runs in its place: loading
+// libtorch takes half a second, which nobody who wants hulls should wait for.
+#pragma once
+
+#include <array>
+
+namespace partwise::cli {
+
+struct LearningVerb {
+  const char* name;
+  const char* summary;
+};
+
+inline constexpr LearningVerb train_line = {"train",
+                                            "Train a network from a configuration, with checkpoints; --resume goes on"};
+
+inline constexpr std::array learning_verbs = {train_line};
+
+// Becomes partwise-learning with the same arguments. Returns only where that cannot be done: says why, returns the exit
+// status.
+int become_learning_program(char** arguments);
+
+}  // namespace partwise::cli

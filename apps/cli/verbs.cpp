@@ -1,0 +1,16 @@
+// The verbs of partwise.
+#include "verbs.h"
+
+#include <array>
+
+namespace partwise::cli {
+
+namespace {
+constexpr std::array list = {&decompose_verb, &feature_verb, &segment_verb, &evaluate_verb,
+                             &retrieve_verb,  &medial_verb,  &outline_verb, &compare2d_verb,
+                             &material_verb,  &render_verb,  &dataset_verb};
+}
+
+std::span<const Verb* const> verbs() { return list; }
+
+}  // namespace partwise::cli

@@ -1,0 +1,178 @@
+#include "partwise/editing/edit_samples.h"
+
+#include <ATen/Functions.h>
+#include <ATen/TensorOperators.h>
+#include <tbb/parallel_for.h>
+
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "partwise/appearance/rendering/reflectance_map.h"
+#include "partwise/base/draw.h"
+#include "partwise/base/error.h"
+#include "partwise/editing/editing_networks.h"
+
+namespace partwise {
+namespace {
+
+constexpr double middle_grey = 0.18;
+constexpr double exposure_stops = 0.75;
+constexpr double gamma = 2.2;
+
+enum class Purpose : std::uint64_t { light, material, view };
+
+Draw draw_for(std::uint64_t seed, std::uint64_t batch, std::int64_t number, Purpose purpose) {
+  constexpr std::uint64_t purposes = 4;
+  return {seed, batch, static_cast<std::uint64_t>(number) * purposes + static_cast<std::uint64_t>(purpose)};
+}
+
+DsbrdfCoefficients drawn_material(Draw& draw, const std::vector<DsbrdfCoefficients>& materials, bool varied) {
+  const auto any = [&] { return materials[static_cast<std::size_t>(draw.below(static_cast<int>(materials.size())))]; };
+  DsbrdfCoefficients material = any();
+  if (!varied) return material;
+  if (draw.unit() < 0.5) {
+    const double share = draw.unit();
+    material = share * material + (1 - share) * any();
+  }
+  DsbrdfCoefficients result;
+  const std::vector<int> order = draw.different(3, 3);
+  for (int c = 0; c < 3; ++c) {
+    result.segment<dsbrdf_channel_size>(c * dsbrdf_channel_size) =
+        material.segment<dsbrdf_channel_size>(order[static_cast<std::size_t>(c)] * dsbrdf_channel_size);
+  }
+  return result;
+}
+
+EnvironmentLight drawn_light(Draw& draw, const std::vector<EnvironmentLight>& lights, bool varied) {
+  const auto any = [&] {
+    return lights[static_cast<std::size_t>(draw.below(static_cast<int>(lights.size())))].rotated(360 * draw.unit());
+  };
+  const EnvironmentLight first = any();
+  if (!varied) return first;
+  Image radiance = first.radiance();
+  const auto add = [&](const Image& other, double share) {
+    std::array<float, 3> tint;
+    for (float& each : tint) each = static_cast<float>(share * std::exp2(draw.within(-0.25, 0.25)));
+    for (std::size_t i = 0; i < radiance.values.size(); ++i)
+      radiance.values[i] = (&other == &radiance ? 0 : radiance.values[i]) + tint[i % 3] * other.values[i];
+  };
+  const Eigen::Vector3d energy = first.energy();
+  add(radiance, 1);
+  if (draw.unit() < 0.5) {
+    const EnvironmentLight second = any();
+    const double share = std::exp2(draw.within(-3, 0));
+    add(second.radiance(), share * energy.mean() / std::max(second.energy().mean(), 1e-9));
+  }
+  return EnvironmentLight(std::move(radiance));
+}
+
+// 3 x h x w planes of an image's interleaved colours.
+at::Tensor planes_of(const Image& image) {
+  return at::from_blob(const_cast<float*>(image.values.data()), {image.height, image.width, 3})
+      .permute({2, 0, 1})
+      .clone();
+}
+
+at::Tensor looked_up(const ReflectanceMap& map, const at::Tensor& normals) {
+  at::Tensor image = at::zeros_like(normals);
+  const std::int64_t pixels = normals.numel() / 3;
+  const float* n = normals.data_ptr<float>();
+  float* out = image.data_ptr<float>();
+  for (std::int64_t i = 0; i < pixels; ++i) {
+    const Eigen::Vector3f normal(n[i], n[pixels + i], n[2 * pixels + i]);
+    if (normal.isZero()) continue;
+    const Eigen::Vector3f colour = map.colour(normal);
+    for (int c = 0; c < 3; ++c) out[c * pixels + i] = colour[c];
+  }
+  return image;
+}
+
+// Takes the median of the object's values to middle grey.
+double exposure_of(const at::Tensor& image, const at::Tensor& mask) {
+  const at::Tensor values = image.masked_select(mask.expand_as(image) > 0);
+  if (values.numel() == 0) return 1;
+  double level = values.median().item<double>();
+  if (level <= 0) level = values.mean().item<double>();
+  return level > 0 ? middle_grey / level : 1;
+}
+
+}  // namespace
+
+struct EditSamples::Group {
+  std::array<DsbrdfCoefficients, 2> materials;
+  at::Tensor radiance;  // 3 x 64 x 128
+  std::array<std::optional<ReflectanceMap>, 2> maps;
+};
+
+EditSamples::EditSamples(const StoredViews& views, std::vector<DsbrdfCoefficients> materials,
+                         const std::vector<EnvironmentLight>& lights, const EditSamplesSettings& settings)
+    : views_(views), materials_(std::move(materials)), settings_(settings) {
+  PARTWISE_CHECK(views_.size(), >, 0);
+  PARTWISE_CHECK(materials_.size(), >, 0u);
+  PARTWISE_CHECK(lights.size(), >, 0u);
+  for (const EnvironmentLight& each : lights) lights_.push_back(each.resized(light_columns, light_rows));
+}
+
+EditSamples::Group EditSamples::group(std::uint64_t batch, std::int64_t number) const {
+  Draw material = draw_for(settings_.seed, batch, number, Purpose::material);
+  Draw light = draw_for(settings_.seed, batch, number, Purpose::light);
+  Group result;
+  for (DsbrdfCoefficients& each : result.materials) each = drawn_material(material, materials_, settings_.varied);
+  const EnvironmentLight radiance = drawn_light(light, lights_, settings_.varied);
+  result.radiance = planes_of(radiance.radiance());
+  const LightSamples samples = light_samples(radiance);
+  tbb::parallel_for(std::size_t(0), result.maps.size(), [&](std::size_t i) {
+    result.maps[i].emplace(Dsbrdf(result.materials[i]), samples, settings_.map_size);
+  });
+  return result;
+}
+
+EditBatch EditSamples::batch(std::uint64_t number, const Rows& rows) const {
+  const std::int64_t side = views_.side();
+  const auto images = [&](std::int64_t channels) { return at::zeros({rows.count, channels, side, side}); };
+  const auto coefficients = [&] { return at::empty({rows.count, dsbrdf_size}); };
+  EditBatch result{images(4), images(3),      coefficients(), at::empty({rows.count, 3, light_rows, light_columns}),
+                   images(3), coefficients(), images(3)};
+  const std::int64_t group_rows = settings_.group;
+  const std::int64_t last = rows.first + rows.count;
+  tbb::parallel_for(rows.first / group_rows, (last + group_rows - 1) / group_rows, [&](std::int64_t g) {
+    const at::NoGradGuard no_gradient;
+    const Group shared = group(number, g);
+    const std::int64_t from = std::max(rows.first, g * group_rows), to = std::min(last, (g + 1) * group_rows);
+    for (std::int64_t row = from; row < to; ++row) add_row(number, row, rows.first, shared, result);
+  });
+  return result;
+}
+
+void EditSamples::add_row(std::uint64_t batch, std::int64_t row, std::int64_t first, const Group& group,
+                          EditBatch& result) const {
+  Draw draw = draw_for(settings_.seed, batch, row, Purpose::view);
+  const std::int64_t view = draw.below(static_cast<int>(views_.size()));
+  const bool mirrored = draw.unit() < 0.5;
+  const double stops = settings_.varied ? draw.within(-exposure_stops, exposure_stops) : 0;
+  const at::Tensor normals = views_.normals(view, mirrored).contiguous();
+  const at::Tensor mask = (normals.square().sum(0, true) > 0).to(at::kFloat);
+  const auto worn = static_cast<std::size_t>(row % 2), wanted = 1 - worn;
+  const at::Tensor image = looked_up(*group.maps[worn], normals), target = looked_up(*group.maps[wanted], normals);
+  const double exposure = exposure_of(image, mask) * std::exp2(stops);
+  const std::int64_t at = row - first;
+  result.image[at] = image * exposure;
+  result.target[at] = target * exposure;
+  result.radiance[at] = group.radiance * exposure;
+  result.normals[at] = normals;
+  result.material[at] = as_tensor(group.materials[worn]);
+  result.target_material[at] = as_tensor(group.materials[wanted]);
+  result.pictures[at].narrow(0, 0, 3) = display_values(image * exposure).clamp_max(1);
+  result.pictures[at].narrow(0, 3, 1) = mask;
+}
+
+at::Tensor display_values(const at::Tensor& linear) {
+  constexpr double darkest = 1e-4;  // the slope at zero is finite
+  const double lift = std::pow(darkest, 1 / gamma);
+  const at::Tensor positive = linear.clamp_min(0);
+  const at::Tensor curve = ((positive + darkest).pow(1 / gamma) - lift) / (std::pow(1 + darkest, 1 / gamma) - lift);
+  return at::where(positive <= 1, curve, 1 + 0.1 * positive.clamp_min(1).log());
+}
+
+}  // namespace partwise

@@ -1,0 +1,72 @@
+// Pictures to learn editing from, made as they are asked for: views of shapes from disk, put into materials and light
+// that are drawn by chance, so that no picture comes twice (dissertation, sections 3.3.3 and 3.4.1).
+//
+// A batch comes in groups. Of each group a light and two materials are drawn, of each row a view and an exposure; odd
+// rows wear the first material and are to be changed into the second, even ones the other way round. A reflectance map
+// (appearance/rendering) of each of the two materials shows all of the group, which is what makes this fast.
+//   materials   one of those given, or half of the time a blend of two; channels in any order
+//   light       one of those given, turned about y, or half of the time the sum of two, brightness and colour varied
+//   view        any, mirrored half of the time
+//   exposure    the median of the object to 0.18, times 2^-0.75 to 2^0.75
+// `varied` off: materials, lights and exposure as they are, for validation and tests.
+//
+// Row i of batch b depends on the seed, b and i alone. All on the CPU, on all threads. Errors: CheckFailed where there
+// is nothing to draw from.
+#pragma once
+
+#include <ATen/core/Tensor.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "partwise/appearance/material/dsbrdf.h"
+#include "partwise/appearance/rendering/environment_light.h"
+#include "partwise/learning/rows.h"
+#include "partwise/learning/stored_views.h"
+
+namespace partwise {
+
+// Linear colours and radiance are exposed: a picture's value 1 is the largest that it shows.
+struct EditBatch {
+  at::Tensor pictures;         // B x 4 x S x S: image, as display_values has it, and mask
+  at::Tensor normals;          // B x 3 x S x S
+  at::Tensor material;         // B x 108, coefficients
+  at::Tensor radiance;         // B x 3 x 64 x 128
+  at::Tensor image;            // B x 3 x S x S, linear
+  at::Tensor target_material;  // B x 108
+  at::Tensor target;           // B x 3 x S x S, linear: the same in the target material
+
+  at::Tensor mask() const { return pictures.narrow(1, 3, 1); }
+};
+
+struct EditSamplesSettings {
+  std::uint64_t seed = 0;
+  int group = 4;      // rows
+  int map_size = 64;  // of reflectance maps
+  bool varied = true;
+};
+
+class EditSamples {
+ public:
+  // What is drawn from; views must outlive this. Lights are resized to 128 x 64.
+  EditSamples(const StoredViews& views, std::vector<DsbrdfCoefficients> materials,
+              const std::vector<EnvironmentLight>& lights, const EditSamplesSettings& settings);
+
+  EditBatch batch(std::uint64_t number, const Rows& rows) const;
+
+ private:
+  struct Group;
+  Group group(std::uint64_t batch, std::int64_t number) const;
+  void add_row(std::uint64_t batch, std::int64_t row, std::int64_t first, const Group& group, EditBatch& result) const;
+
+  const StoredViews& views_;
+  std::vector<DsbrdfCoefficients> materials_;
+  std::vector<EnvironmentLight> lights_;
+  EditSamplesSettings settings_;
+};
+
+// Linear colours as they are shown and as networks see them: exponent 1 / 2.2. From 0 to 1 for what a display can show,
+// beyond that a tenth of the logarithm more, so that what is too bright still has a gradient. shown(1) = 1.
+at::Tensor display_values(const at::Tensor& linear);
+
+}  // namespace partwise

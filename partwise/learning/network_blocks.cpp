@@ -1,0 +1,64 @@
+#include "partwise/learning/network_blocks.h"
+
+#include <ATen/Functions.h>
+#include <torch/nn/modules/activation.h>
+#include <torch/nn/modules/normalization.h>
+
+#include "partwise/base/error.h"
+
+namespace partwise {
+namespace {
+
+constexpr int channels_a_group = 8;
+
+void add_normalised_rectifier(torch::nn::Sequential& layers, int channels) {
+  PARTWISE_CHECK(channels % channels_a_group, ==, 0);
+  layers->push_back(torch::nn::GroupNorm(channels / channels_a_group, channels));
+  layers->push_back(torch::nn::ReLU());
+}
+
+}  // namespace
+
+at::Tensor RowDropoutImpl::forward(const at::Tensor& values) {
+  if (!is_training() || share_ == 0) return values;
+  PARTWISE_CHECK(values.size(0), ==, rows_.count);
+  const at::Tensor kept = at::bernoulli(at::full({rows_.all, values.size(1)}, 1 - share_, values.options()));
+  return values * kept.narrow(0, rows_.first, rows_.count) / (1 - share_);
+}
+
+void take_rows(torch::nn::Module& network, const Rows& rows) {
+  for (const auto& each : network.modules()) {
+    if (auto* dropout = each->as<RowDropoutImpl>()) dropout->take(rows);
+  }
+}
+
+torch::nn::Sequential convolution(int from, int to, int kernel, int stride) {
+  torch::nn::Sequential layers(
+      torch::nn::Conv2d(torch::nn::Conv2dOptions(from, to, kernel).stride(stride).padding(kernel / 2).bias(false)));
+  add_normalised_rectifier(layers, to);
+  return layers;
+}
+
+torch::nn::Sequential halving_convolutions(int from, const std::vector<int>& channels) {
+  torch::nn::Sequential layers;
+  int kernel = 5;
+  for (const int to : channels) {
+    layers->extend(*convolution(from, to, kernel, 2));
+    from = to;
+    kernel = 3;
+  }
+  return layers;
+}
+
+torch::nn::Sequential doubling_convolution(int from, int to) {
+  torch::nn::Sequential layers(
+      torch::nn::ConvTranspose2d(torch::nn::ConvTranspose2dOptions(from, to, 4).stride(2).padding(1).bias(false)));
+  add_normalised_rectifier(layers, to);
+  return layers;
+}
+
+torch::nn::Sequential connected(int from, int to, double dropout) {
+  return torch::nn::Sequential(torch::nn::Linear(from, to), torch::nn::ReLU(), RowDropout(dropout));
+}
+
+}  // namespace partwise

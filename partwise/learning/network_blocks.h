@@ -1,0 +1,43 @@
+// Layers that the networks of this project are made of. Internal to the rooms that have networks: it names torch/nn,
+// which takes long to compile.
+//
+// Activations are normalised over groups of eight channels of each sample (Wu and He 2018, "Group normalization"), not
+// over a batch: a sample's result then does not depend on its neighbours, and a batch may be shared between processes.
+#pragma once
+
+#include <torch/nn/modules/container/sequential.h>
+#include <torch/nn/modules/conv.h>
+#include <torch/nn/modules/linear.h>
+
+#include <vector>
+
+#include "partwise/learning/rows.h"
+
+namespace partwise {
+
+// Dropout whose mask is drawn for all rows of a batch that processes share, of which this one takes its own.
+class RowDropoutImpl : public torch::nn::Module {
+ public:
+  explicit RowDropoutImpl(double share) : share_(share) {}
+  at::Tensor forward(const at::Tensor& values);  // B x n
+  void take(const Rows& rows) { rows_ = rows; }
+
+ private:
+  double share_;
+  Rows rows_;
+};
+TORCH_MODULE(RowDropout);
+
+// Tells every RowDropout of a network which rows come next.
+void take_rows(torch::nn::Module& network, const Rows& rows);
+
+// Convolution, its size kept but for the stride; normalisation; rectifier.
+torch::nn::Sequential convolution(int from, int to, int kernel = 3, int stride = 1);
+// Convolutions that each halve the size, the first of 5 x 5 and from `from` channels, the others of 3 x 3.
+torch::nn::Sequential halving_convolutions(int from, const std::vector<int>& channels);
+// Transposed convolution that doubles the size; normalisation; rectifier.
+torch::nn::Sequential doubling_convolution(int from, int to);
+// Fully connected; rectifier; dropout.
+torch::nn::Sequential connected(int from, int to, double dropout);
+
+}  // namespace partwise
