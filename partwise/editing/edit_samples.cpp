@@ -163,7 +163,7 @@ void EditSamples::add_row(std::uint64_t batch, std::int64_t row, std::int64_t fi
   result.normals[at] = normals;
   result.material[at] = as_tensor(group.materials[worn]);
   result.target_material[at] = as_tensor(group.materials[wanted]);
-  result.pictures[at].narrow(0, 0, 3) = display_values(image * exposure).clamp_max(1);
+  result.pictures[at].narrow(0, 0, 3) = display_values(image * exposure).clamp_max(1) * mask;
   result.pictures[at].narrow(0, 3, 1) = mask;
 }
 

@@ -33,7 +33,7 @@ class PerceptualFeatures {
 // in units of `feature_scale`, summed over the two layers.
 at::Tensor perceptual_distance(const PerceptualFeatures& features, const at::Tensor& a, const at::Tensor& b);
 
-// Features are of the order of a hundred; distances of pictures that differ little are then far below 1.
-inline constexpr double feature_scale = 100;
+// Features are of the order of hundreds: distances of pictures that have little in common are then about 1.
+inline constexpr double feature_scale = 1000;
 
 }  // namespace partwise

@@ -1,0 +1,171 @@
+#include "partwise/editing/editing_task.h"
+
+#include <ATen/Functions.h>
+#include <ATen/TensorOperators.h>
+#include <gtest/gtest.h>
+#include <torch/nn/module.h>
+#include <torch/optim/adam.h>
+#include <torch/types.h>
+#include <torch/utils.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "partwise/base/error.h"
+#include "partwise/editing/test_editing.h"
+#include "partwise/learning/network_blocks.h"
+
+namespace partwise {
+namespace {
+
+EditingNetworks networks(double dropout = 0) {
+  torch::manual_seed(1);
+  return {{.dropout = dropout}, MaterialRange::of(test::materials())};
+}
+
+EditingTask task(const EditingNetworks& given, const EditSamples& samples, const EditingWeights& weights,
+                 bool given_geometry = false) {
+  EditingTaskSettings settings;
+  settings.stages = {weights};
+  settings.given_normals = settings.given_light = given_geometry;
+  return {given, samples, samples, settings};
+}
+
+double gradient_of(torch::nn::Module& network, const std::string& start) {
+  double sum = 0;
+  for (const auto& each : network.named_parameters()) {
+    if (each.key().rfind(start, 0) == 0 && each.value().grad().defined())
+      sum += each.value().grad().square().sum().item<double>();
+  }
+  return std::sqrt(sum);
+}
+
+TEST(EditingNetworks, ShapesAndRanges) {
+  EditingNetworks given = networks();
+  given.module().eval();
+  const EditBatch batch = test::samples(false).batch(0, {0, 2, 2});
+  const Decomposition found = given(batch.pictures);
+  const at::Tensor lengths = found.normals.square().sum(1, true).sqrt();
+  EXPECT_LT((lengths - batch.mask()).abs().max().item<double>(), 1e-4);
+  EXPECT_EQ(found.material.sizes(), (std::vector<std::int64_t>{2, dsbrdf_size}));
+  EXPECT_LE(found.material.abs().max().item<double>(), 1);
+  EXPECT_EQ(found.log_radiance.sizes(), (std::vector<std::int64_t>{2, 3, 64, 128}));
+  std::int64_t count = 0;
+  for (const at::Tensor& each : given.module().parameters()) count += each.numel();
+  EXPECT_LT(2 * count, 5'000'000);  // bytes in half precision
+  EXPECT_THROW(given.normals(at::zeros({1, 4, 64, 64})), CheckFailed);
+}
+
+TEST(EditingNetworks, AreReadAsTheyWereWritten) {
+  const TestFolder folder;
+  const std::filesystem::path path = folder.path() / "w.pt";
+  EditingNetworks given = networks();
+  given.module().eval();
+  write_weights(path, given.weights(), given.module(), WeightsPrecision::single);
+  const EditingNetworks read = read_editing_networks(path);
+  const at::Tensor pictures = test::samples(false).batch(0, {0, 1, 1}).pictures;
+  EXPECT_TRUE(read.scaled_material(pictures).equal(given.scaled_material(pictures)));
+  EXPECT_TRUE(read.normals(pictures).equal(given.normals(pictures)));
+  EXPECT_TRUE(read.range().high().equal(given.range().high()));
+  write_weights(path, {"normals", "{}"}, given.module(), WeightsPrecision::single);
+  EXPECT_THROW(read_editing_networks(path), InputError);
+}
+
+TEST(EditingTask, EveryTermReachesItsNetworks) {
+  const EditSamples samples = test::samples(true);
+  const Rows rows{0, 4, 4};
+  EditingNetworks given = networks();
+  EditingTask all = task(given, samples, {.normal = 0, .material = 0, .light = 0, .pixel = 1, .perceptual = 1});
+  const Losses losses = all.training_losses(0, 0, rows);
+  ASSERT_EQ(losses.terms.size(), 2u);
+  EXPECT_NEAR(losses.total.item<double>(), losses.terms[0].second + losses.terms[1].second, 1e-5);
+  losses.total.backward();
+  for (const char* part : {"normals", "material", "light"}) EXPECT_GT(gradient_of(given.module(), part), 0) << part;
+}
+
+TEST(EditingTask, WhatIsGivenIsNotPredicted) {
+  const EditSamples samples = test::samples(true);
+  EditingNetworks given = networks();
+  EditingTask material =
+      task(given, samples, {.normal = 1, .material = 1, .light = 1, .pixel = 1, .perceptual = 0}, true);
+  const Losses losses = material.training_losses(0, 0, {0, 4, 4});
+  ASSERT_EQ(losses.terms.size(), 2u);
+  EXPECT_EQ(losses.terms[0].first, "material");
+  EXPECT_EQ(losses.terms[1].first, "pixel");
+  losses.total.backward();
+  EXPECT_GT(gradient_of(given.module(), "material"), 0);
+  EXPECT_EQ(gradient_of(given.module(), "normals"), 0);
+  EXPECT_EQ(gradient_of(given.module(), "light"), 0);
+}
+
+// What processes that share a batch have in the mean is what one has.
+TEST(EditingTask, SharesOfABatchHaveItsGradientInTheMean) {
+  const EditSamples samples = test::samples(true);
+  const EditingWeights weights{.perceptual = 0};
+  std::vector<at::Tensor> whole, shared;
+  for (std::vector<at::Tensor>* gradients : {&whole, &shared}) {
+    EditingNetworks given = networks(0.3);
+    EditingTask joint = task(given, samples, weights);
+    const bool one = gradients == &whole;
+    for (const Rows& rows : one ? std::vector{Rows{0, 4, 4}} : std::vector{Rows{0, 2, 4}, Rows{2, 2, 4}}) {
+      torch::manual_seed(9);
+      take_rows(given.module(), rows);
+      (joint.training_losses(0, 0, rows).total / (one ? 1 : 2)).backward();
+    }
+    for (const at::Tensor& each : given.module().parameters()) gradients->push_back(each.grad());
+  }
+  double difference = 0, size = 0;
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    difference += (whole[i] - shared[i]).square().sum().item<double>();
+    size += whole[i].square().sum().item<double>();
+  }
+  EXPECT_LT(std::sqrt(difference), 1e-4 * std::sqrt(size));
+}
+
+// A network that cannot learn one batch by heart learns nothing.
+class OneBatch : public testing::TestWithParam<std::pair<const char*, EditingWeights>> {};
+
+TEST_P(OneBatch, IsLearntByHeart) {
+  const EditSamples samples = test::samples(false);
+  EditingNetworks given = networks();
+  EditingTask alone = task(given, samples, GetParam().second);
+  torch::optim::Adam optimiser(given.module().parameters(), torch::optim::AdamOptions(3e-3));
+  double first = 0, last = 0;
+  for (int step = 0; step < 30; ++step) {
+    optimiser.zero_grad();
+    const Losses losses = alone.training_losses(0, 0, {0, 2, 2});
+    losses.total.backward();
+    optimiser.step();
+    last = losses.total.item<double>();
+    if (step == 0) first = last;
+  }
+  EXPECT_LT(last, first / 3) << first;
+}
+
+INSTANTIATE_TEST_SUITE_P(Networks, OneBatch,
+                         testing::Values(std::pair{"normals", EditingWeights{1, 0, 0, 0, 0}},
+                                         std::pair{"material", EditingWeights{0, 1, 0, 0, 0}},
+                                         std::pair{"light", EditingWeights{0, 0, 1, 0, 0}},
+                                         std::pair{"joint", EditingWeights{0, 0, 0, 1, 0}}),
+                         [](const auto& each) { return each.param.first; });
+
+TEST(ReducedLight, KeepsEnergy) {
+  torch::manual_seed(2);
+  const at::Tensor radiance = torch::rand({1, 3, 64, 128}), reduced = reduced_light(radiance, 32);
+  ASSERT_EQ(reduced.sizes(), (std::vector<std::int64_t>{1, 3, 16, 32}));
+  const auto energy = [](const at::Tensor& map) {
+    double sum = 0;
+    for (std::int64_t y = 0; y < map.size(2); ++y)
+      sum += map[0][0][y].sum().item<double>() * equirectangular_solid_angle(static_cast<int>(y),
+                                                                             static_cast<int>(map.size(3)),
+                                                                             static_cast<int>(map.size(2)));
+    return sum;
+  };
+  EXPECT_NEAR(energy(reduced), energy(radiance), 1e-3);
+  EXPECT_LT((reduced_light(at::ones({1, 3, 64, 128}), 16) - 1).abs().max().item<double>(), 1e-5);
+}
+
+}  // namespace
+}  // namespace partwise
