@@ -14,7 +14,10 @@ struct LearningVerb {
 inline constexpr LearningVerb train_line = {"train",
                                             "Train a network from a configuration, with checkpoints; --resume goes on"};
 
-inline constexpr std::array learning_verbs = {train_line};
+inline constexpr LearningVerb edit_line = {"edit",
+                                           "One photo of an object in, the same object in another material out"};
+
+inline constexpr std::array learning_verbs = {train_line, edit_line};
 
 // Becomes partwise-learning with the same arguments. Returns only where that cannot be done: says why, returns the exit
 // status.

@@ -19,6 +19,7 @@ extern const Verb material_verb;
 extern const Verb render_verb;
 extern const Verb dataset_verb;
 extern const Verb train_verb;
+extern const Verb edit_verb;
 
 std::span<const Verb* const> verbs();
 

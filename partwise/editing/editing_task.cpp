@@ -12,16 +12,6 @@
 namespace partwise {
 namespace {
 
-// 1 x 1 x h x 1: what a row of a map counts on the sphere; the mean is 1.
-at::Tensor row_weights(std::int64_t rows) {
-  at::Tensor weights = at::empty({1, 1, rows, 1});
-  for (std::int64_t y = 0; y < rows; ++y) {
-    weights.data_ptr<float>()[y] =
-        static_cast<float>(equirectangular_solid_angle(static_cast<int>(y), 1, static_cast<int>(rows)));
-  }
-  return weights / weights.mean();
-}
-
 // Mean over the object's pixels and channels, a row; of a row without object 0.
 at::Tensor object_mean(const at::Tensor& values, const at::Tensor& mask) {
   const at::Tensor sums = (values * mask).mean(1).sum({1, 2});
@@ -34,6 +24,15 @@ at::Tensor scaled_to(const at::Tensor& images, std::int64_t side) {
 }
 
 }  // namespace
+
+at::Tensor row_weights(std::int64_t rows) {
+  at::Tensor weights = at::empty({1, 1, rows, 1});
+  for (std::int64_t y = 0; y < rows; ++y) {
+    weights.data_ptr<float>()[y] =
+        static_cast<float>(equirectangular_solid_angle(static_cast<int>(y), 1, static_cast<int>(rows)));
+  }
+  return weights / weights.mean();
+}
 
 at::Tensor reduced_light(const at::Tensor& radiance, int columns) {
   const std::int64_t rows = radiance.size(2), step = radiance.size(3) / columns;

@@ -60,6 +60,9 @@ class EditingTask final : public TrainingTask {
   std::optional<PerceptualFeatures> features_;
 };
 
+// 1 x 1 x h x 1: what a pixel of each row of a map counts on the sphere, 1 in the mean.
+at::Tensor row_weights(std::int64_t rows);
+
 // Maps of radiance, B x 3 x h x w, reduced to fewer columns; energy is kept.
 at::Tensor reduced_light(const at::Tensor& radiance, int columns);
 

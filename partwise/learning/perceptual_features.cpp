@@ -62,6 +62,8 @@ std::vector<at::Tensor> PerceptualFeatures::operator()(const at::Tensor& picture
 }
 
 at::Tensor perceptual_distance(const PerceptualFeatures& features, const at::Tensor& a, const at::Tensor& b) {
+  PARTWISE_CHECK(a.sizes() == b.sizes(), ==, true);
+  PARTWISE_CHECK(a.scalar_type() == b.scalar_type(), ==, true);
   const std::vector<at::Tensor> of_a = features(a), of_b = features(b);
   at::Tensor sum = at::zeros({a.size(0)}, a.options());
   for (std::size_t i = 0; i < of_a.size(); ++i) {

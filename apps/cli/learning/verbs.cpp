@@ -6,7 +6,7 @@
 namespace partwise::cli {
 
 namespace {
-constexpr std::array list = {&train_verb};
+constexpr std::array list = {&train_verb, &edit_verb};
 }
 
 std::span<const Verb* const> verbs() { return list; }

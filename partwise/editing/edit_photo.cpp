@@ -1,0 +1,129 @@
+#include "partwise/editing/edit_photo.h"
+
+#include <ATen/Functions.h>
+#include <ATen/TensorOperators.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "partwise/appearance/rendering/reflectance_map.h"
+#include "partwise/base/error.h"
+#include "partwise/editing/edit_samples.h"
+
+namespace partwise {
+namespace {
+
+constexpr int map_size = 128;
+
+// 1 x C x side x side of an image's crop, zero beyond it.
+at::Tensor cropped(const Image& image, const Crop& crop) {
+  at::Tensor result = at::zeros({1, image.channels, crop.side, crop.side});
+  const std::int64_t plane = std::int64_t{crop.side} * crop.side;
+  float* out = result.data_ptr<float>();
+  for (int y = std::max(0, -crop.y); y < std::min(crop.side, image.height - crop.y); ++y)
+    for (int x = std::max(0, -crop.x); x < std::min(crop.side, image.width - crop.x); ++x)
+      for (int c = 0; c < image.channels; ++c)
+        out[c * plane + std::int64_t{y} * crop.side + x] = image.pixel(x + crop.x, y + crop.y)[c];
+  return result;
+}
+
+at::Tensor resized(const at::Tensor& images, std::int64_t side) {
+  if (images.size(3) == side) return images;
+  if (images.size(3) > side) return at::adaptive_avg_pool2d(images, {side, side});
+  return at::upsample_bilinear2d(images, {side, side}, /*align_corners=*/false);
+}
+
+EnvironmentLight as_light(const at::Tensor& radiance) {  // 1 x 3 x h x w
+  const at::Tensor rows = radiance[0].permute({1, 2, 0}).contiguous();
+  Image image(static_cast<int>(rows.size(1)), static_cast<int>(rows.size(0)), 3);
+  std::copy_n(rows.data_ptr<float>(), image.values.size(), image.values.begin());
+  return EnvironmentLight(std::move(image));
+}
+
+// display_values from a table: one tensor for each of a million pixels would take minutes.
+class DisplayCurve {
+ public:
+  DisplayCurve() : values_(display_values(at::linspace(0, 1, steps + 1).square()).contiguous()) {}
+  float operator()(float linear) const {
+    const float place = std::sqrt(std::clamp(linear, 0.0f, 1.0f)) * steps;
+    const int i = std::min(static_cast<int>(place), steps - 1);
+    const float* table = values_.data_ptr<float>();
+    return table[i] + (place - static_cast<float>(i)) * (table[i + 1] - table[i]);
+  }
+
+ private:
+  static constexpr int steps = 4096;  // of the root, so that dark values have more
+  at::Tensor values_;
+};
+
+}  // namespace
+
+PhotoLayers read_layers(const EditingNetworks& networks, const Photo& photo, const ReadingSettings& settings,
+                        const Progress& progress) {
+  const at::NoGradGuard no_gradient;
+  const std::int64_t size = networks.settings().size;
+  PhotoLayers layers;
+  layers.crop = crop_of(photo);
+  at::Tensor mask = at::zeros({1, 1, size, size});
+  for (const Image& region : photo.regions) {
+    layers.regions.push_back((resized(cropped(region, layers.crop), size) > 0.5).to(at::kFloat));
+    mask = at::maximum(mask, layers.regions.back());
+  }
+  const at::Tensor colours = resized(cropped(photo.shown, layers.crop), size);
+  layers.picture = at::cat({colours * mask, mask}, 1);
+  progress("look", 0);
+  layers.found.normals = networks.normals(layers.picture);
+  layers.found.log_radiance = networks.log_radiance(layers.picture);
+  std::vector<at::Tensor> materials;
+  for (const at::Tensor& region : layers.regions) {
+    materials.push_back(networks.scaled_material(at::cat({colours * region, region}, 1)));
+  }
+  layers.found.material = at::cat(materials);
+  RefinementSettings refinement = settings.refinement;
+  if (!settings.refine) refinement.rounds = 0;
+  const Refinement result =
+      refined(layers.found, networks.range(), layers.picture, layers.regions, refinement, progress);
+  layers.found = result.found;
+  layers.error_before = result.before;
+  layers.error = result.after;
+  return layers;
+}
+
+EnvironmentLight light_of(const PhotoLayers& layers) { return as_light(radiance_of_log(layers.found.log_radiance)); }
+
+Image edited(const Photo& photo, const PhotoLayers& layers, const std::vector<DsbrdfCoefficients>& materials,
+             const std::optional<EnvironmentLight>& light) {
+  PARTWISE_CHECK(materials.size(), ==, photo.regions.size());
+  const Crop& crop = layers.crop;
+  // Beyond the object there are no normals: what enlarging mixes in from there is of length zero and drops out.
+  const at::Tensor normals = resized(layers.found.normals, crop.side).contiguous();
+  const std::int64_t plane = std::int64_t{crop.side} * crop.side;
+  const float* n = normals.data_ptr<float>();
+  const LightSamples samples = light_samples(light ? light->resized(light_columns, light_rows) : light_of(layers));
+  const DisplayCurve curve;
+  Image result(photo.shown.width, photo.shown.height, photo.has_alpha ? 4 : 3);
+  for (std::size_t i = 0; i < photo.alpha.values.size(); ++i) {
+    const auto channels = static_cast<std::size_t>(result.channels);
+    std::copy_n(&photo.shown.values[3 * i], 3, &result.values[channels * i]);
+    if (channels == 4) result.values[4 * i + 3] = photo.alpha.values[i];
+  }
+  for (std::size_t region = 0; region < materials.size(); ++region) {
+    const ReflectanceMap map(Dsbrdf(materials[region]), samples, map_size);
+    const Image& mask = photo.regions[region];
+    tbb::parallel_for(std::max(0, -crop.y), std::min(crop.side, mask.height - crop.y), [&](int y) {
+      for (int x = std::max(0, -crop.x); x < std::min(crop.side, mask.width - crop.x); ++x) {
+        const float share = *mask.pixel(x + crop.x, y + crop.y);
+        const std::int64_t at = std::int64_t{y} * crop.side + x;
+        const Eigen::Vector3f normal(n[at], n[plane + at], n[2 * plane + at]);
+        if (share <= 0 || normal.squaredNorm() < 1e-6f) continue;
+        const Eigen::Vector3f colour = map.colour(normal.normalized());
+        float* out = result.pixel(x + crop.x, y + crop.y);
+        for (int c = 0; c < 3; ++c) out[c] += share * (curve(colour[c]) - out[c]);
+      }
+    });
+  }
+  return result;
+}
+
+}  // namespace partwise
