@@ -1,6 +1,8 @@
 #include "partwise/learning/checkpoint.h"
 
 #include <ATen/Functions.h>
+#include <archive.h>
+#include <archive_entry.h>
 #include <fmt/format.h>
 #include <torch/csrc/jit/serialization/pickle.h>
 #include <torch/nn/module.h>
@@ -8,7 +10,9 @@
 #include <torch/serialize/archive.h>
 
 #include <exception>
+#include <memory>
 #include <sstream>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -50,10 +54,36 @@ auto reading(const std::filesystem::path& path, const char* what, const char* re
   }
 }
 
-constexpr const char* weights_remedy = "name a weights file that partwise train wrote, or get it again";
+constexpr const char* weights_remedy = "get it again, or name a weights file that partwise train wrote";
+
+// Whether bytes are a zip archive that holds what was put into it: libtorch does not look at checksums, and what is
+// damaged may end it.
+bool is_sound_archive(std::string_view bytes) {
+  const std::unique_ptr<archive, decltype(&archive_read_free)> reader(archive_read_new(), &archive_read_free);
+  archive_read_support_format_zip_seekable(reader.get());
+  if (archive_read_open_memory(reader.get(), bytes.data(), bytes.size()) != ARCHIVE_OK) return false;
+  archive_entry* entry = nullptr;
+  int status = ARCHIVE_OK, entries = 0;
+  for (; (status = archive_read_next_header(reader.get(), &entry)) == ARCHIVE_OK; ++entries) {
+    const void* block = nullptr;
+    std::size_t size = 0;
+    la_int64_t offset = 0;
+    do {
+      status = archive_read_data_block(reader.get(), &block, &size, &offset);
+    } while (status == ARCHIVE_OK);
+    if (status != ARCHIVE_EOF) return false;
+  }
+  return status == ARCHIVE_EOF && entries > 0;
+}
+
+std::string read_archive(const std::filesystem::path& path, const char* what, const char* remedy) {
+  std::string bytes = read_bytes(path);
+  if (!is_sound_archive(bytes)) refuse(path, what, remedy);
+  return bytes;
+}
 
 c10::Dict<c10::IValue, c10::IValue> read_whole(const std::filesystem::path& path) {
-  const std::string bytes = read_bytes(path);
+  const std::string bytes = read_archive(path, "weights file", weights_remedy);
   return reading(path, "weights file", weights_remedy, [&] {
     return torch::jit::pickle_load({bytes.begin(), bytes.end()}).toGenericDict();
   });
@@ -120,8 +150,9 @@ void write_checkpoint(const std::filesystem::path& path, const TrainingState& st
 
 TrainingState read_checkpoint(const std::filesystem::path& path, torch::nn::Module& network,
                               torch::optim::Optimizer& optimiser) {
-  std::istringstream bytes(read_bytes(path));
-  return reading(path, "checkpoint of this network", "remove it to start anew", [&] {
+  constexpr const char *what = "checkpoint of this network", *remedy = "remove it to start anew";
+  std::istringstream bytes(read_archive(path, what, remedy));
+  return reading(path, what, remedy, [&] {
     torch::serialize::InputArchive whole, part;
     whole.load_from(bytes);
     const auto number = [&](const char* name) {
