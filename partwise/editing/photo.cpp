@@ -6,9 +6,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <string>
 #include <utility>
 
 #include "partwise/base/error.h"
+#include "partwise/base/read_bytes.h"
+#include "partwise/imaging/jpeg.h"
 #include "partwise/imaging/png.h"
 
 namespace partwise {
@@ -144,7 +147,8 @@ Image found_object(const std::filesystem::path& path, const Photo& photo) {
 }  // namespace
 
 Photo read_photo(const std::filesystem::path& path, const std::vector<std::filesystem::path>& masks) {
-  const Image file = read_plain_png(path);
+  const std::string bytes = read_bytes(path);
+  const Image file = is_jpeg(bytes) ? decode_plain_jpeg(path.string(), bytes) : decode_plain_png(path.string(), bytes);
   Photo photo;
   photo.shown = colours(file);
   photo.alpha = has_transparency(file) ? channel(file, file.channels - 1) : Image(file.width, file.height, 1, 1);

@@ -1,9 +1,9 @@
 // A photo of an object and where in it the object is: masks that are given, transparency, or a plain background.
 //
-// Colours are kept as they are shown, 0 to 1. Masks are read from files of the photo's size, bright where the region is
-// (alpha, where they have it, does not count); a region may lie over an earlier one, which it then takes away from.
-// Without masks, what is transparent is background; without transparency, what hangs together with the photo's border
-// and has its colour, if the border is plain: nine tenths of it within `plainness` of its median colour.
+// PNG or JPEG. Colours are kept as they are shown, 0 to 1. Masks are read from files of the photo's size, bright where
+// the region is (alpha, where they have it, does not count); a region may lie over an earlier one, which it then takes
+// away from. Without masks, what is transparent is background; without transparency, what hangs together with the
+// photo's border and has its colour, if the border is plain: nine tenths of it within `plainness` of its median colour.
 // Errors: InputError for a picture that cannot be read, a mask of another size or without a bright pixel, a photo
 // without an object, or without a plain background where no mask is given.
 #pragma once

@@ -30,7 +30,12 @@ struct Options {
 
 std::filesystem::path weights_file(const Options& options) {
   if (!options.weights.empty()) return options.weights;
-  return shared_file("models/networks/editing.pt");
+  try {
+    return shared_file("models/networks/editing.pt");
+  } catch (const InputError&) {
+    throw InputError("--weights", "no networks for editing ship with this copy",
+                     "make some with partwise train, and name them");
+  }
 }
 
 DsbrdfCoefficients fitted_material(const std::string& name) {
@@ -103,7 +108,7 @@ void edit(const Options& options, Run& run) {
 
 Action add(CLI::App& command) {
   const auto options = std::make_shared<Options>();
-  command.add_option("PHOTO", options->photo, "A picture of an object (.png)")->required()->type_name("");
+  command.add_option("PHOTO", options->photo, "A picture of an object (.png, .jpg)")->required()->type_name("");
   CLI::Option* material = command
                               .add_option("--material", options->materials,
                                           "A shipped material (partwise material list) or a fitted one "
