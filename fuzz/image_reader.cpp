@@ -1,4 +1,4 @@
-// What libFuzzer calls: one reader of images of high range, chosen by PARTWISE_FUZZ_FORMAT. Whatever the bytes, the
+// What libFuzzer calls: one reader of images, chosen by PARTWISE_FUZZ_FORMAT. Whatever the bytes, the
 // outcome is an image or an InputError of one line.
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include "fuzz/outcome.h"
 #include "partwise/imaging/exr.h"
 #include "partwise/imaging/hdr.h"
+#include "partwise/imaging/jpeg.h"
 
 namespace {
 
@@ -31,13 +32,26 @@ bool is_large_exr(std::string_view bytes) {
   return false;
 }
 
+bool is_large_jpeg(std::string_view bytes) {
+  constexpr int most = 1024;
+  for (std::size_t at = 0; at + 9 < bytes.size(); ++at) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[at + i]); };
+    if (byte(0) != 0xFF || byte(1) < 0xC0 || byte(1) > 0xCF) continue;  // a frame's header, or what looks like it
+    if ((byte(5) << 8 | byte(6)) > most || (byte(7) << 8 | byte(8)) > most) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   if (format == "exr" && is_large_exr(bytes)) return 0;
+  if (format == "jpg" && is_large_jpeg(bytes)) return 0;
   expect_message_or([&] {
-    const Image image = format == "exr" ? decode_exr("fuzz", bytes) : decode_hdr("fuzz", bytes);
+    const Image image = format == "exr"   ? decode_exr("fuzz", bytes)
+                        : format == "hdr" ? decode_hdr("fuzz", bytes)
+                                          : decode_plain_jpeg("fuzz", bytes);
     const auto pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
     if (pixels == 0 || image.values.size() != pixels * static_cast<std::size_t>(image.channels))
       give_up("an image of no size");

@@ -6,6 +6,7 @@
 #include "partwise/base/error.h"
 #include "partwise/imaging/exr.h"
 #include "partwise/imaging/hdr.h"
+#include "partwise/imaging/jpeg.h"
 #include "partwise/imaging/png.h"
 
 namespace partwise {
@@ -16,7 +17,9 @@ Image read_image(const std::filesystem::path& path) {
   if (ending == ".exr") return read_exr(path);
   if (ending == ".hdr" || ending == ".pic") return read_hdr(path);
   if (ending == ".png") return read_png(path);
-  throw InputError(path.string(), "has the ending of no image format that is read", "give .exr, .hdr, .pic or .png");
+  if (ending == ".jpg" || ending == ".jpeg") return read_jpeg(path);
+  throw InputError(path.string(), "has the ending of no image format that is read",
+                   "give .exr, .hdr, .pic, .png or .jpg");
 }
 
 }  // namespace partwise

@@ -14,6 +14,7 @@
 #include <jpeglib.h>
 
 #include "partwise/base/error.h"
+#include "partwise/base/read_bytes.h"
 
 namespace partwise {
 namespace {
@@ -125,6 +126,12 @@ Image upright(const Image& image, int orientation) {
 }
 
 }  // namespace
+
+Image read_jpeg(const std::filesystem::path& path) {
+  Image image = decode_plain_jpeg(path.string(), read_bytes(path));
+  for (float& value : image.values) value = linear_from_srgb(value);
+  return image;
+}
 
 bool is_jpeg(std::string_view bytes) { return bytes.starts_with("\xFF\xD8\xFF"); }
 
