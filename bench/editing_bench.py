@@ -2,7 +2,8 @@
 """The dissertation's Tables 3.1 and 3.2 for trained networks, on views, materials and lights that they have not seen. See
 bench/README.md.
 
-    editing_bench.py VIEWS... --joint F.pt [--alone F.pt] [--combined F.pt] [--separate F.pt] [--count 500] [--refine]
+    editing_bench.py VIEWS... --joint F.pt [--alone F.pt] [--combined F.pt] [--separate F.pt]
+        [--encoder-decoder F.pt] [--count 500] [--refine]
 """
 
 import argparse
@@ -16,7 +17,7 @@ from harness import history  # noqa: E402
 from harness.process import BIN, expect  # noqa: E402
 from harness.table import mean, table  # noqa: E402
 
-PUBLISHED = {"Table 3.1, standalone": (544.1, 0.9297), "Table 3.1, combined": (355.5, 0.9517), "Table 3.2, individual": (886.9, 0.9256),
+PUBLISHED = {"Table 3.2, encoder-decoder": (1076.7, 0.9173), "Table 3.1, standalone": (544.1, 0.9297), "Table 3.1, combined": (355.5, 0.9517), "Table 3.2, individual": (886.9, 0.9256),
              "Table 3.2, individual, refined": (1273.7, 0.9159), "Table 3.2, joint": (805.2, 0.9408),
              "Table 3.2, joint, refined": (530.9, 0.9557)}
 
@@ -27,6 +28,7 @@ def parse(words):
     add("views", type=Path, nargs="+", help="folders of shards of views")
     add("--joint", type=Path, help="weights trained through the rendering layer")
     add("--separate", type=Path, help="weights of networks trained one by one (baseline 2)")
+    add("--encoder-decoder", type=Path, help="weights of an encoder-decoder (baseline 1)")
     add("--alone", type=Path, help="weights whose material network was trained on coefficients alone")
     add("--combined", type=Path, help="weights whose material network was trained through the layer, normals and light given")
     add("--count", type=int, default=500, help="pictures")
@@ -53,6 +55,9 @@ def main(words):
         if weights:
             pictures = measured(options, weights, "--given")
             found[f"Table 3.1, {name}"] = figures(pictures, "render") | {"material": mean([each["material"] for each in pictures])}
+    if options.encoder_decoder:
+        pictures = measured(options, options.encoder_decoder)
+        found["Table 3.2, encoder-decoder"] = figures(pictures, "transfer") | {"material": mean([each["material"] for each in pictures])}
     for name, weights in (("individual", options.separate), ("joint", options.joint)):
         if weights:
             pictures = measured(options, weights, *(["--refine"] if options.refine else []))

@@ -17,6 +17,7 @@
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@
 #include "partwise/appearance/material/material_files.h"
 #include "partwise/editing/edit_samples.h"
 #include "partwise/editing/editing_networks.h"
+#include "partwise/editing/encoder_decoder.h"
 #include "partwise/editing/refinement.h"
 #include "partwise/imaging/image_metrics.h"
 #include "partwise/imaging/tone_mapping.h"
@@ -64,16 +66,35 @@ class Judge {
  public:
   explicit Judge(const Options& options)
       : options_(options),
-        networks_(read_editing_networks(options.weights)),
         views_({options.views.begin(), options.views.end()}),
         samples_(views_, materials(), lights(),
-                 {.seed = options.seed, .group = 2, .map_size = options.map_size, .varied = false}) {}
+                 {.seed = options.seed, .group = 2, .map_size = options.map_size, .varied = false}) {
+    if (read_weights_header(options.weights).kind == "encoder_decoder") {
+      peer_ = read_encoder_decoder(options.weights);
+    } else {
+      networks_ = read_editing_networks(options.weights);
+    }
+  }
 
   nlohmann::ordered_json picture(int number) const {
     const at::NoGradGuard no_gradient;
     const EditBatch batch = samples_.batch(static_cast<std::uint64_t>(number), {0, 1, 2});
-    const MaterialRange range = networks_.range();
-    Decomposition found{batch.normals, networks_.scaled_material(batch.pictures), log_of_radiance(batch.radiance)};
+    return peer_ ? redrawn(number, batch) : read(number, batch);
+  }
+
+ private:
+  nlohmann::ordered_json redrawn(int number, const EditBatch& batch) const {
+    const MaterialRange range = peer_->range();
+    const Redrawn found = (*peer_)(batch.pictures, range.scaled(batch.target_material));
+    constexpr double gamma = 2.2;
+    return {{"picture", number},
+            {"material", (found.material - range.scaled(batch.material)).square().sum().item<double>()},
+            {"transfer", difference(found.image.pow(gamma), batch.target, batch.mask())}};
+  }
+
+  nlohmann::ordered_json read(int number, const EditBatch& batch) const {
+    const MaterialRange range = networks_->range();
+    Decomposition found{batch.normals, networks_->scaled_material(batch.pictures), log_of_radiance(batch.radiance)};
     nlohmann::ordered_json json;
     json["picture"] = number;
     json["material"] = (found.material - range.scaled(batch.material)).square().sum().item<double>();
@@ -82,14 +103,13 @@ class Judge {
                                   batch.mask());
       return json;
     }
-    found = networks_(batch.pictures);
+    found = (*networks_)(batch.pictures);
     add(json, "", found, batch, range);
     if (!options_.refine) return json;
     add(json, "refined_", refined(found, range, batch.pictures, {batch.mask()}).found, batch, range);
     return json;
   }
 
- private:
   at::Tensor shown(const at::Tensor& normals, const at::Tensor& material, const at::Tensor& radiance) const {
     return mapped_images(normals, material, radiance, options_.map_size);
   }
@@ -117,7 +137,8 @@ class Judge {
   }
 
   const Options& options_;
-  EditingNetworks networks_;
+  std::optional<EditingNetworks> networks_;
+  std::optional<EncoderDecoder> peer_;
   StoredViews views_;
   EditSamples samples_;
 };

@@ -10,21 +10,6 @@
 #include "partwise/learning/rendering_layer.h"
 
 namespace partwise {
-namespace {
-
-// Mean over the object's pixels and channels, a row; of a row without object 0.
-at::Tensor object_mean(const at::Tensor& values, const at::Tensor& mask) {
-  const at::Tensor sums = (values * mask).mean(1).sum({1, 2});
-  return sums / mask.sum({1, 2, 3}).clamp_min(1);
-}
-
-at::Tensor scaled_to(const at::Tensor& images, std::int64_t side) {
-  if (images.size(3) == side) return images;
-  return at::adaptive_avg_pool2d(images, {side, side});
-}
-
-}  // namespace
-
 at::Tensor row_weights(std::int64_t rows) {
   at::Tensor weights = at::empty({1, 1, rows, 1});
   for (std::int64_t y = 0; y < rows; ++y) {
@@ -32,6 +17,18 @@ at::Tensor row_weights(std::int64_t rows) {
         static_cast<float>(equirectangular_solid_angle(static_cast<int>(y), 1, static_cast<int>(rows)));
   }
   return weights / weights.mean();
+}
+
+at::Tensor object_mean(const at::Tensor& values, const at::Tensor& mask) {
+  const at::Tensor sums = (values * mask).mean(1).sum({1, 2});
+  return sums / mask.sum({1, 2, 3}).clamp_min(1);
+}
+
+at::Tensor reduced_perceptual_distance(const PerceptualFeatures& features, const at::Tensor& a, const at::Tensor& b,
+                                       int side) {
+  if (a.size(3) == side) return perceptual_distance(features, a, b);
+  return perceptual_distance(features, at::adaptive_avg_pool2d(a, {side, side}),
+                             at::adaptive_avg_pool2d(b, {side, side}));
 }
 
 at::Tensor reduced_light(const at::Tensor& radiance, int columns) {
@@ -106,8 +103,7 @@ Losses EditingTask::losses(const EditBatch& batch, const EditingWeights& weights
   }
   if (weights.perceptual > 0) {
     const auto distance = [&](const at::Tensor& a, const at::Tensor& b) {
-      return perceptual_distance(*features_, scaled_to(a, settings_.perceptual_side),
-                                 scaled_to(b, settings_.perceptual_side));
+      return reduced_perceptual_distance(*features_, a, b, settings_.perceptual_side);
     };
     add("perceptual", weights.perceptual, distance(image, true_image) + distance(target, true_target));
   }

@@ -63,6 +63,14 @@ class EditingTask final : public TrainingTask {
 // 1 x 1 x h x 1: what a pixel of each row of a map counts on the sphere, 1 in the mean.
 at::Tensor row_weights(std::int64_t rows);
 
+// Mean over the object's pixels and channels, a row; of a row without object 0. Values B x C x S x S, mask B x 1 x S x
+// S.
+at::Tensor object_mean(const at::Tensor& values, const at::Tensor& mask);
+
+// The perceptual distance of images that are reduced to a side first, a row.
+at::Tensor reduced_perceptual_distance(const PerceptualFeatures& features, const at::Tensor& a, const at::Tensor& b,
+                                       int side);
+
 // Maps of radiance, B x 3 x h x w, reduced to fewer columns; energy is kept.
 at::Tensor reduced_light(const at::Tensor& radiance, int columns);
 

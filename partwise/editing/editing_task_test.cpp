@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "partwise/base/error.h"
+#include "partwise/editing/encoder_decoder.h"
 #include "partwise/editing/test_editing.h"
 #include "partwise/learning/network_blocks.h"
 
@@ -150,6 +151,37 @@ INSTANTIATE_TEST_SUITE_P(Networks, OneBatch,
                                          std::pair{"light", EditingWeights{0, 0, 1, 0, 0}},
                                          std::pair{"joint", EditingWeights{0, 0, 0, 1, 0}}),
                          [](const auto& each) { return each.param.first; });
+
+TEST(EncoderDecoder, LearnsABatchByHeartAndIsReadAsItWasWritten) {
+  const EditSamples samples = test::samples(false);
+  torch::manual_seed(1);
+  const EncoderDecoder network(128, MaterialRange::of(test::materials()));
+  EditingTaskSettings settings;
+  settings.stages = {{.normal = 0, .material = 1, .light = 0, .pixel = 10, .perceptual = 1}};
+  EncoderDecoderTask task(network, samples, samples, settings);
+  torch::optim::Adam optimiser(network.module().parameters(), torch::optim::AdamOptions(3e-3));
+  double first = 0, last = 0;
+  for (int step = 0; step < 30; ++step) {
+    optimiser.zero_grad();
+    const Losses losses = task.training_losses(0, 0, {0, 2, 2});
+    losses.total.backward();
+    optimiser.step();
+    last = losses.total.item<double>();
+    if (step == 0) {
+      first = last;
+      EXPECT_EQ(losses.terms.size(), 3u);
+    }
+  }
+  EXPECT_LT(last, first / 3) << first;
+  network.module().eval();
+  const TestFolder folder;
+  write_weights(folder.path() / "w.pt", network.weights(), network.module(), WeightsPrecision::single);
+  const EncoderDecoder read = read_encoder_decoder(folder.path() / "w.pt");
+  const EditBatch batch = samples.batch(0, {0, 1, 1});
+  const at::Tensor wanted = network.range().scaled(batch.target_material);
+  EXPECT_TRUE(read(batch.pictures, wanted).image.equal(network(batch.pictures, wanted).image));
+  EXPECT_THROW(read_editing_networks(folder.path() / "w.pt"), InputError);
+}
 
 TEST(ReducedLight, KeepsEnergy) {
   torch::manual_seed(2);

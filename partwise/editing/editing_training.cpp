@@ -4,6 +4,7 @@
 #include <torch/utils.h>
 
 #include <algorithm>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "partwise/appearance/material/material_files.h"
@@ -79,7 +80,9 @@ EditingTraining read_editing_training(const std::filesystem::path& path) {
   if (whole.is_discarded()) throw InputError(path.string(), "is not JSON", "check brackets, quotes and commas");
   JsonFields fields(path.string(), "", whole, "docs/training.md");
   EditingTraining result;
-  if (fields.text("network") != "editing") fields.refuse("network", "is none that is known", "write \"editing\"");
+  fields.need("network");
+  result.kind = fields.choice<EditingKind>(
+      "network", result.kind, {{"editing", EditingKind::layers}, {"encoder_decoder", EditingKind::encoder_decoder}});
   result.loop = take_training_settings(fields);
   for (JsonFields& stage : take_stages(fields, path.string())) {
     result.loop.stages.push_back(take_stage(stage));
@@ -126,10 +129,17 @@ TrainingReport train_editing(const EditingTraining& training, const Rank& rank, 
   plain.seed += 1;
   const EditSamples validation(validation_views, training.materials, training.lights, plain);
   torch::manual_seed(training.loop.seed);
-  EditingNetworks networks(training.networks, MaterialRange::of(training.materials));
-  if (!training.start.empty()) read_weights(training.start, networks.module());
-  EditingTask task(networks, samples, validation, training.task);
-  return train(task, training.loop, rank, resume, progress);
+  const MaterialRange range = MaterialRange::of(training.materials);
+  std::unique_ptr<TrainingTask> task;
+  if (training.kind == EditingKind::encoder_decoder) {
+    const EncoderDecoder network(training.networks.size, range);
+    task = std::make_unique<EncoderDecoderTask>(network, samples, validation, training.task);
+  } else {
+    const EditingNetworks networks(training.networks, range);
+    task = std::make_unique<EditingTask>(networks, samples, validation, training.task);
+  }
+  if (!training.start.empty()) read_weights(training.start, task->network());
+  return train(*task, training.loop, rank, resume, progress);
 }
 
 }  // namespace partwise

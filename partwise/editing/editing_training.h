@@ -7,14 +7,15 @@
 #include <string>
 #include <vector>
 
-#include "partwise/editing/edit_samples.h"
-#include "partwise/editing/editing_networks.h"
-#include "partwise/editing/editing_task.h"
+#include "partwise/editing/encoder_decoder.h"
 #include "partwise/learning/training_loop.h"
 
 namespace partwise {
 
+enum class EditingKind { layers, encoder_decoder };  // editing_networks.h, encoder_decoder.h
+
 struct EditingTraining {
+  EditingKind kind = EditingKind::layers;
   EditingNetworksSettings networks;
   TrainingSettings loop;
   EditingTaskSettings task;
