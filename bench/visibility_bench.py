@@ -36,6 +36,7 @@ def parse(words):
     add("--medial", action="store_true", help="points of the medial axis against the judge's")
     add = parser.add_argument
     add("--amplitudes", type=float, nargs="*", default=histograms.AMPLITUDES, help="of --histograms, shares of R")
+    add("--kinds", nargs="+", choices=histograms.KINDS, default=histograms.KINDS, help="of --histograms")
     add("--smooth", type=int, default=0, help="of --histograms, rounds of smoothing before values are taken")
     add("--samples", type=int, default=200000, help="of --medial, that the judge draws")
     options = parser.parse_args(words)
@@ -54,7 +55,7 @@ def measured(options, settings, paths, category, jobs):
     if options.growth:
         return "growth", visibility.growth(settings, paths, options.growth, category, jobs)
     if options.histograms:
-        return "histograms", histograms.noise_and_pose(settings, paths, category, tuple(options.amplitudes), options.smooth, jobs)
+        return "histograms", histograms.noise_and_pose(settings, paths, category, tuple(options.amplitudes), options.smooth, options.kinds, jobs)
     return "medial", medial.medial(settings, paths, category, options.samples, jobs)
 
 

@@ -89,6 +89,9 @@ class Train(unittest.TestCase):
         again = run("train", self.config(), "-o", output)
         self.assertEqual(again.returncode, 1)
         self.assertIn("--resume", again.stderr)
+        other = run("train", self.config(), "-o", output, "--resume", "--seed", 3)
+        self.assertEqual(other.returncode, 1)
+        self.assertIn("another configuration", other.stderr)
 
     def test_goes_on_after_being_killed(self):
         config = self.config()

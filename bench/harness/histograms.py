@@ -56,7 +56,7 @@ def share_nearer(near, far):
         len(near) * len(far))
 
 
-def histograms_of(settings, mesh, noise, smooth=0, seed=1):
+def histograms_of(settings, mesh, noise, smooth=0, kinds=KINDS, seed=1):
     """By kind, of the mesh with noise, values and areas taken after so many rounds of smoothing. Errors: ValueError with a
     program's complaint."""
     with tempfile.TemporaryDirectory() as folder:
@@ -67,18 +67,18 @@ def histograms_of(settings, mesh, noise, smooth=0, seed=1):
         process.expect([settings.tools / "mesh_variant", copy, even, "--smooth", smooth], settings.time_limit)
         areas = vertex_areas(*meshes.read_off(even))
         found = {}
-        for kind in KINDS:
+        for kind in kinds:
             process.expect([settings.program, "feature", copy, "--kind", kind, "--smooth", smooth, "--values", values, "--threads",
                             settings.threads, "--quiet"], settings.time_limit)
             found[kind] = histogram([float(line) for line in values.read_text().split()], areas, kind)
         return found
 
 
-def noise_and_pose(settings, paths, category, amplitudes, smooth, jobs):
+def noise_and_pose(settings, paths, category, amplitudes, smooth, kinds, jobs):
     """Noise: a mesh and its noisy copy. Pose: two meshes of a category of POSES. Other: two of different categories."""
     def one(path):
         try:
-            return {noise: histograms_of(settings, path, noise, smooth) for noise in (0, *amplitudes)}
+            return {noise: histograms_of(settings, path, noise, smooth, kinds) for noise in (0, *amplitudes)}
         except ValueError as error:
             return str(error)
 
@@ -90,7 +90,7 @@ def noise_and_pose(settings, paths, category, amplitudes, smooth, jobs):
             found[path] = result
     groups = pairs_of(found, category, amplitudes)
     rows, figures = [], {}
-    for kind in KINDS:
+    for kind in kinds:
         distances = {name: [earth_movers_distance(a[kind], b[kind]) for a, b in pairs] for name, pairs in groups.items()}
         other = distances.pop("other")
         figures[kind] = {name: {"distance": mean(each), "nearer": share_nearer(each, other)}

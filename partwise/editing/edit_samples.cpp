@@ -48,7 +48,7 @@ EnvironmentLight drawn_light(Draw& draw, const std::vector<EnvironmentLight>& li
   const auto any = [&] {
     return lights[static_cast<std::size_t>(draw.below(static_cast<int>(lights.size())))].rotated(360 * draw.unit());
   };
-  const EnvironmentLight first = any();
+  EnvironmentLight first = any();
   if (!varied) return first;
   Image radiance = first.radiance();
   const auto add = [&](const Image& other, double share) {

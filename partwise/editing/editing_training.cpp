@@ -74,10 +74,11 @@ EditingWeights take_weights(JsonFields& fields) {
 
 }  // namespace
 
-EditingTraining read_editing_training(const std::filesystem::path& path) {
+EditingTraining read_editing_training(const std::filesystem::path& path, std::uint64_t seed) {
   const std::filesystem::path base = path.parent_path();
-  const nlohmann::json whole = nlohmann::json::parse(read_bytes(path), nullptr, false);
+  nlohmann::json whole = nlohmann::json::parse(read_bytes(path), nullptr, false);
   if (whole.is_discarded()) throw InputError(path.string(), "is not JSON", "check brackets, quotes and commas");
+  if (seed != 0 && whole.is_object()) whole["seed"] = seed;
   JsonFields fields(path.string(), "", whole, "docs/training.md");
   EditingTraining result;
   fields.need("network");

@@ -26,7 +26,8 @@ struct EditingTraining {
   std::filesystem::path start;  // weights to start from; empty: random ones
 };
 
-EditingTraining read_editing_training(const std::filesystem::path& path);
+// `seed`, unless it is 0, goes before the configuration's.
+EditingTraining read_editing_training(const std::filesystem::path& path, std::uint64_t seed = 0);
 
 TrainingReport train_editing(const EditingTraining& training, const Rank& rank, bool resume,
                              const Progress& progress = {});

@@ -20,12 +20,11 @@ struct Options {
 };
 
 EditingTraining read_config(const Options& options, const Run& run) {
-  EditingTraining training = read_editing_training(options.config);
+  EditingTraining training = read_editing_training(options.config, run.seed);
   if (!options.output.empty()) training.loop.output = options.output;
   if (training.loop.output.empty()) {
     throw InputError(options.config, "names no output folder", "give it \"output\", or the option -o");
   }
-  if (run.seed != 0) training.loop.seed = training.samples.seed = run.seed;
   return training;
 }
 
