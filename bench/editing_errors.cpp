@@ -94,7 +94,7 @@ class Judge {
 
   nlohmann::ordered_json read(int number, const EditBatch& batch) const {
     const MaterialRange range = networks_->range();
-    Decomposition found{batch.normals, networks_->scaled_material(batch.pictures), log_of_radiance(batch.radiance)};
+    PictureLayers found{batch.normals, networks_->scaled_material(batch.pictures), log_of_radiance(batch.radiance)};
     nlohmann::ordered_json json;
     json["picture"] = number;
     json["material"] = (found.material - range.scaled(batch.material)).square().sum().item<double>();
@@ -114,7 +114,7 @@ class Judge {
     return mapped_images(normals, material, radiance, options_.map_size);
   }
 
-  void add(nlohmann::ordered_json& json, const std::string& name, const Decomposition& found, const EditBatch& batch,
+  void add(nlohmann::ordered_json& json, const std::string& name, const PictureLayers& found, const EditBatch& batch,
            const MaterialRange& range) const {
     const at::Tensor radiance = radiance_of_log(found.log_radiance);
     json[name + "render"] =

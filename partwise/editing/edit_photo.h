@@ -21,7 +21,7 @@ struct PhotoLayers {
   Crop crop;
   at::Tensor picture;               // 1 x 4 x S x S, what the networks saw
   std::vector<at::Tensor> regions;  // 1 x 1 x S x S each
-  Decomposition found;              // a material a region
+  PictureLayers found;              // a material a region
   double error = 0;                 // mean squared error of the picture rendered from them, 0 to 255 squared
   double error_before = 0;          // before refinement
 };

@@ -88,7 +88,7 @@ at::Tensor EditingNetworks::log_radiance(const at::Tensor& pictures) const {
   return modules_->light->forward(pictures);
 }
 
-Decomposition EditingNetworks::operator()(const at::Tensor& pictures) const {
+PictureLayers EditingNetworks::operator()(const at::Tensor& pictures) const {
   return {normals(pictures), scaled_material(pictures), log_radiance(pictures)};
 }
 

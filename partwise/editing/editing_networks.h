@@ -32,7 +32,7 @@ struct EditingNetworksSettings {
   double dropout = 0.2;
 };
 
-struct Decomposition {
+struct PictureLayers {
   at::Tensor normals;       // B x 3 x S x S
   at::Tensor material;      // B x 108, scaled
   at::Tensor log_radiance;  // B x 3 x 64 x 128
@@ -45,7 +45,7 @@ class EditingNetworks {
   at::Tensor normals(const at::Tensor& pictures) const;
   at::Tensor scaled_material(const at::Tensor& pictures) const;
   at::Tensor log_radiance(const at::Tensor& pictures) const;
-  Decomposition operator()(const at::Tensor& pictures) const;
+  PictureLayers operator()(const at::Tensor& pictures) const;
 
   const EditingNetworksSettings& settings() const;
   MaterialRange range() const;

@@ -47,7 +47,7 @@ TEST(EditingNetworks, ShapesAndRanges) {
   EditingNetworks given = networks();
   given.module().eval();
   const EditBatch batch = test::samples(false).batch(0, {0, 2, 2});
-  const Decomposition found = given(batch.pictures);
+  const PictureLayers found = given(batch.pictures);
   const at::Tensor lengths = found.normals.square().sum(1, true).sqrt();
   EXPECT_LT((lengths - batch.mask()).abs().max().item<double>(), 1e-4);
   EXPECT_EQ(found.material.sizes(), (std::vector<std::int64_t>{2, dsbrdf_size}));

@@ -44,6 +44,7 @@ std::vector<DsbrdfCoefficients> take_materials(JsonFields& fields, const std::fi
 std::vector<EnvironmentLight> take_lights(JsonFields& fields, const std::filesystem::path& base) {
   const std::vector<std::string> names = fields.need("lights") == "all" ? shipped_lights() : fields.texts("lights");
   std::vector<EnvironmentLight> result;
+  result.reserve(names.size());
   for (const std::string& name : names) result.push_back(named_light(name, base));
   return result;
 }

@@ -88,6 +88,7 @@ Border border_of(const Image& shown) {
   Border border;
   for (std::size_t c = 0; c < 3; ++c) {
     std::vector<float> values;
+    values.reserve(pixels.size());
     for (const float* each : pixels) values.push_back(each[c]);
     std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
     border.colour[c] = values[values.size() / 2];

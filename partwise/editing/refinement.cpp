@@ -21,7 +21,7 @@ at::Tensor unit(const at::Tensor& vectors, const at::Tensor& mask) {
 
 class Energy {
  public:
-  Energy(const Decomposition& start, const MaterialRange& range, const at::Tensor& picture,
+  Energy(const PictureLayers& start, const MaterialRange& range, const at::Tensor& picture,
          const std::vector<at::Tensor>& regions, const RefinementSettings& settings)
       : start_(start),
         range_(range),
@@ -33,25 +33,25 @@ class Energy {
         light_share_(mask_.sum().item<double>() / static_cast<double>(start.log_radiance[0][0].numel())) {}
 
   // n* is the direction of what is optimised.
-  Decomposition directions(const Decomposition& point) const {
+  PictureLayers directions(const PictureLayers& point) const {
     return {unit(point.normals, mask_), point.material, point.log_radiance};
   }
 
-  at::Tensor image_error(const Decomposition& at) const {
+  at::Tensor image_error(const PictureLayers& at) const {
     const at::Tensor shown = rendered(at, range_, regions_, settings_);
     const at::Tensor too_bright = (shown > 1).logical_and(image_ >= white);
     return at::where(too_bright, at::zeros({}), (shown - image_).square()).mul(mask_).sum();
   }
 
-  at::Tensor operator()(const Decomposition& point) const {
-    const Decomposition at = directions(point);
+  at::Tensor operator()(const PictureLayers& point) const {
+    const PictureLayers at = directions(point);
     const at::Tensor of_light = ((at.log_radiance - start_.log_radiance).square() * weights_).sum() * light_share_;
     return image_error(at) + settings_.normal_weight * (at.normals - start_.normals).square().sum() +
            settings_.light_weight * of_light;
   }
 
   // Mean over the object's pixels and channels, 0 to 255 squared.
-  double mean_error(const Decomposition& at) const {
+  double mean_error(const PictureLayers& at) const {
     const at::NoGradGuard no_gradient;
     const double pixels = std::max(mask_.sum().item<double>(), 1.0);
     return 255.0 * 255.0 * image_error(at).item<double>() / (3 * pixels);
@@ -60,7 +60,7 @@ class Energy {
  private:
   static constexpr double white = 254.5 / 255;
 
-  const Decomposition& start_;
+  const PictureLayers& start_;
   const MaterialRange& range_;
   at::Tensor image_, mask_;
   const std::vector<at::Tensor>& regions_;
@@ -69,7 +69,7 @@ class Energy {
   double light_share_;
 };
 
-void minimise(const Energy& energy, Decomposition& point, at::Tensor& variable, int steps) {
+void minimise(const Energy& energy, PictureLayers& point, at::Tensor& variable, int steps) {
   variable = variable.detach().clone().requires_grad_();
   torch::optim::LBFGS optimiser({variable},
                                 torch::optim::LBFGSOptions(1).max_iter(steps).line_search_fn("strong_wolfe"));
@@ -84,7 +84,7 @@ void minimise(const Energy& energy, Decomposition& point, at::Tensor& variable, 
 
 }  // namespace
 
-at::Tensor rendered(const Decomposition& found, const MaterialRange& range, const std::vector<at::Tensor>& regions,
+at::Tensor rendered(const PictureLayers& found, const MaterialRange& range, const std::vector<at::Tensor>& regions,
                     const RefinementSettings& settings) {
   PARTWISE_CHECK(found.material.size(0), ==, static_cast<std::int64_t>(regions.size()));
   const at::Tensor light = reduced_light(radiance_of_log(found.log_radiance), settings.layer_light);
@@ -98,11 +98,11 @@ at::Tensor rendered(const Decomposition& found, const MaterialRange& range, cons
   return image;
 }
 
-Refinement refined(const Decomposition& start, const MaterialRange& range, const at::Tensor& picture,
+Refinement refined(const PictureLayers& start, const MaterialRange& range, const at::Tensor& picture,
                    const std::vector<at::Tensor>& regions, const RefinementSettings& settings,
                    const Progress& progress) {
   const Energy energy(start, range, picture, regions, settings);
-  Decomposition point = start;
+  PictureLayers point = start;
   const double before = energy.mean_error(start);
   const at::AutoGradMode with_gradient(true);
   for (int round = 0; round < settings.rounds; ++round) {

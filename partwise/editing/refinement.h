@@ -28,15 +28,15 @@ struct RefinementSettings {
 };
 
 struct Refinement {
-  Decomposition found;
+  PictureLayers found;
   double before = 0, after = 0;  // mean squared errors of I*, 0 to 255 squared
 };
 
-// What a decomposition looks like: display values, 1 x 3 x S x S.
-at::Tensor rendered(const Decomposition& found, const MaterialRange& range, const std::vector<at::Tensor>& regions,
+// What layers look like together: display values, 1 x 3 x S x S.
+at::Tensor rendered(const PictureLayers& found, const MaterialRange& range, const std::vector<at::Tensor>& regions,
                     const RefinementSettings& settings = {});
 
-Refinement refined(const Decomposition& start, const MaterialRange& range, const at::Tensor& picture,
+Refinement refined(const PictureLayers& start, const MaterialRange& range, const at::Tensor& picture,
                    const std::vector<at::Tensor>& regions, const RefinementSettings& settings = {},
                    const Progress& progress = {});
 

@@ -18,7 +18,7 @@ namespace {
 struct Truth {
   MaterialRange range = MaterialRange::of(test::materials());
   EditBatch batch = test::samples(false).batch(1, {0, 1, 4});
-  Decomposition layers{batch.normals, range.scaled(batch.material), log_of_radiance(batch.radiance)};
+  PictureLayers layers{batch.normals, range.scaled(batch.material), log_of_radiance(batch.radiance)};
   std::vector<at::Tensor> regions = {batch.mask()};
   RefinementSettings quick{.rounds = 2, .steps = 6, .layer_light = 32, .layer_map = 32};
 
@@ -39,7 +39,7 @@ TEST(Refinement, WhatExplainsThePictureStays) {
 TEST(Refinement, ComesNearerAndKeepsToItsStart) {
   const Truth truth;
   torch::manual_seed(3);
-  Decomposition start = truth.layers;
+  PictureLayers start = truth.layers;
   start.normals = truth.layers.normals + 0.15 * torch::randn_like(truth.layers.normals) * truth.batch.mask();
   start.normals = start.normals / (start.normals.square().sum(1, true) + 1e-12).sqrt() * truth.batch.mask();
   start.material = start.material + 0.1 * torch::randn_like(start.material);

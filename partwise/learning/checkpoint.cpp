@@ -160,13 +160,13 @@ TrainingState read_checkpoint(const std::filesystem::path& path, torch::nn::Modu
       whole.read(name, value);
       return value;
     };
-    const TrainingState state{.step = number("step").toInt(),
-                              .stage = number("stage").toInt(),
-                              .stage_step = number("stage_step").toInt(),
-                              .best = number("best").toDouble(),
-                              .unimproved = number("unimproved").toInt(),
-                              .sums = number("sums").toDoubleVector(),
-                              .summed = number("summed").toInt()};
+    TrainingState state{.step = number("step").toInt(),
+                        .stage = number("stage").toInt(),
+                        .stage_step = number("stage_step").toInt(),
+                        .best = number("best").toDouble(),
+                        .unimproved = number("unimproved").toInt(),
+                        .sums = number("sums").toDoubleVector(),
+                        .summed = number("summed").toInt()};
     whole.read("network", part);
     network.load(part);
     torch::serialize::InputArchive of_optimiser;

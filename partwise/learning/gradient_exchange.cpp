@@ -97,6 +97,7 @@ void GradientExchange::average_gradients(torch::nn::Module& network) {
     gradients.push_back(each.grad());
   }
   std::vector<at::Tensor> flat;
+  flat.reserve(gradients.size());
   for (const at::Tensor& each : gradients) flat.push_back(each.reshape({-1}));
   at::Tensor all = at::cat(flat);
   group_->average(all);
