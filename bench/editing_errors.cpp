@@ -13,7 +13,6 @@
 #include <torch/types.h>
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -26,6 +25,7 @@
 #include "partwise/editing/edit_samples.h"
 #include "partwise/editing/editing_networks.h"
 #include "partwise/editing/encoder_decoder.h"
+#include "partwise/editing/image_tensors.h"
 #include "partwise/editing/refinement.h"
 #include "partwise/imaging/image_metrics.h"
 #include "partwise/imaging/tone_mapping.h"
@@ -43,17 +43,10 @@ struct Options {
   bool given = false, refine = false;
 };
 
-Image image_of(const at::Tensor& planes) {  // 1 x C x S x S
-  const at::Tensor rows = planes[0].permute({1, 2, 0}).contiguous();
-  Image image(static_cast<int>(rows.size(1)), static_cast<int>(rows.size(0)), static_cast<int>(rows.size(2)));
-  std::copy_n(rows.data_ptr<float>(), image.values.size(), image.values.begin());
-  return image;
-}
-
 nlohmann::ordered_json difference(const at::Tensor& image, const at::Tensor& truth, const at::Tensor& mask) {
-  const Image object = image_of(mask);
-  const float exposure = exposure_by_median(image_of(truth), object);
-  const Image a = tone_map(image_of(image.clamp_min(0)), exposure), b = tone_map(image_of(truth), exposure);
+  const Image object = image_of(mask[0]);
+  const float exposure = exposure_by_median(image_of(truth[0]), object);
+  const Image a = tone_map(image_of(image[0].clamp_min(0)), exposure), b = tone_map(image_of(truth[0]), exposure);
   const ImageDifference inside = compare_images(a, b, object), whole = compare_images(a, b);
   nlohmann::ordered_json json = {{"l2", inside.squared_error}};
   if (inside.ssim) json["ssim"] = *inside.ssim;

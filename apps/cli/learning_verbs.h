@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 namespace partwise::cli {
 
@@ -18,6 +19,9 @@ inline constexpr LearningVerb edit_line = {"edit",
                                            "One photo of an object in, the same object in another material out"};
 
 inline constexpr std::array learning_verbs = {train_line, edit_line};
+
+// Those that the program at hand leaves to the other one.
+std::span<const LearningVerb> verbs_elsewhere();
 
 // Becomes partwise-learning with the same arguments. Returns only where that cannot be done: says why, returns the exit
 // status.

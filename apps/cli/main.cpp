@@ -131,16 +131,12 @@ int execute(const Command& command) {
   return exit_cannot;
 }
 
-// Verbs that the other program has.
-std::span<const LearningVerb> elsewhere() {
-  const bool here = verbs().front()->name == std::string_view(learning_verbs.front().name);
-  return here ? std::span<const LearningVerb>() : learning_verbs;
-}
-
 int parse_and_execute(int argc, char** argv) {
-  if (argc > 1 && std::ranges::find(elsewhere(), std::string_view(argv[1]), &LearningVerb::name) != elsewhere().end()) {
-    return become_learning_program(argv);
-  }
+  const std::span<const LearningVerb> elsewhere = verbs_elsewhere();
+  const auto is_asked_for = [&](const LearningVerb& verb) {
+    return argc > 1 && std::string_view(argv[1]) == verb.name;
+  };
+  if (std::ranges::any_of(elsewhere, is_asked_for)) return become_learning_program(argv);
   CLI::App program("Turns shapes into parts.", "partwise");
   program.set_version_flag("--version", "partwise " PARTWISE_VERSION);
   program.get_formatter()->label("SUBCOMMAND", "VERB");
@@ -149,8 +145,7 @@ int parse_and_execute(int argc, char** argv) {
   std::vector<std::unique_ptr<Command>> commands;
   commands.reserve(verbs().size());
   for (const Verb* verb : verbs()) commands.push_back(add_command(program, *verb));
-
-  for (const LearningVerb& verb : elsewhere()) program.add_subcommand(verb.name, verb.summary)->group("Verbs");
+  for (const LearningVerb& verb : elsewhere) program.add_subcommand(verb.name, verb.summary)->group("Verbs");
 
   const Command* chosen = nullptr;
   try {

@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "learning_verbs.h"
+
 namespace partwise::cli {
 
 namespace {
@@ -12,5 +14,6 @@ constexpr std::array list = {&decompose_verb, &feature_verb, &segment_verb, &eva
 }
 
 std::span<const Verb* const> verbs() { return list; }
+std::span<const LearningVerb> verbs_elsewhere() { return learning_verbs; }
 
 }  // namespace partwise::cli

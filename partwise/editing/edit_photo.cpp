@@ -9,7 +9,8 @@
 
 #include "partwise/appearance/rendering/reflectance_map.h"
 #include "partwise/base/error.h"
-#include "partwise/editing/edit_samples.h"
+#include "partwise/editing/image_tensors.h"
+#include "partwise/editing/picture_terms.h"
 
 namespace partwise {
 namespace {
@@ -32,13 +33,6 @@ at::Tensor resized(const at::Tensor& images, std::int64_t side) {
   if (images.size(3) == side) return images;
   if (images.size(3) > side) return at::adaptive_avg_pool2d(images, {side, side});
   return at::upsample_bilinear2d(images, {side, side}, /*align_corners=*/false);
-}
-
-EnvironmentLight as_light(const at::Tensor& radiance) {  // 1 x 3 x h x w
-  const at::Tensor rows = radiance[0].permute({1, 2, 0}).contiguous();
-  Image image(static_cast<int>(rows.size(1)), static_cast<int>(rows.size(0)), 3);
-  std::copy_n(rows.data_ptr<float>(), image.values.size(), image.values.begin());
-  return EnvironmentLight(std::move(image));
 }
 
 // display_values from a table: one tensor for each of a million pixels would take minutes.
@@ -90,7 +84,9 @@ PhotoLayers read_layers(const EditingNetworks& networks, const Photo& photo, con
   return layers;
 }
 
-EnvironmentLight light_of(const PhotoLayers& layers) { return as_light(radiance_of_log(layers.found.log_radiance)); }
+EnvironmentLight light_of(const PhotoLayers& layers) {
+  return EnvironmentLight(image_of(radiance_of_log(layers.found.log_radiance)[0]));
+}
 
 Image edited(const Photo& photo, const PhotoLayers& layers, const std::vector<DsbrdfCoefficients>& materials,
              const std::optional<EnvironmentLight>& light) {

@@ -4,6 +4,7 @@
 #include <ATen/TensorOperators.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -12,13 +13,14 @@
 #include "partwise/base/draw.h"
 #include "partwise/base/error.h"
 #include "partwise/editing/editing_networks.h"
+#include "partwise/editing/image_tensors.h"
+#include "partwise/editing/picture_terms.h"
+#include "partwise/imaging/tone_mapping.h"
 
 namespace partwise {
 namespace {
 
-constexpr double middle_grey = 0.18;
 constexpr double exposure_stops = 0.75;
-constexpr double gamma = 2.2;
 
 enum class Purpose : std::uint64_t { light, material, view };
 
@@ -50,51 +52,29 @@ EnvironmentLight drawn_light(Draw& draw, const std::vector<EnvironmentLight>& li
   };
   EnvironmentLight first = any();
   if (!varied) return first;
-  Image radiance = first.radiance();
-  const auto add = [&](const Image& other, double share) {
+  Image radiance(first.width(), first.height(), 3);
+  const auto add = [&](const EnvironmentLight& light, double share) {
     std::array<float, 3> tint;
     for (float& each : tint) each = static_cast<float>(share * std::exp2(draw.within(-0.25, 0.25)));
     for (std::size_t i = 0; i < radiance.values.size(); ++i)
-      radiance.values[i] = (&other == &radiance ? 0 : radiance.values[i]) + tint[i % 3] * other.values[i];
+      radiance.values[i] += tint[i % 3] * light.radiance().values[i];
   };
-  const Eigen::Vector3d energy = first.energy();
-  add(radiance, 1);
+  add(first, 1);
   if (draw.unit() < 0.5) {
     const EnvironmentLight second = any();
     const double share = std::exp2(draw.within(-3, 0));
-    add(second.radiance(), share * energy.mean() / std::max(second.energy().mean(), 1e-9));
+    add(second, share * first.energy().mean() / std::max(second.energy().mean(), 1e-9));
   }
   return EnvironmentLight(std::move(radiance));
 }
 
-// 3 x h x w planes of an image's interleaved colours.
-at::Tensor planes_of(const Image& image) {
-  return at::from_blob(const_cast<float*>(image.values.data()), {image.height, image.width, 3})
-      .permute({2, 0, 1})
-      .clone();
-}
-
-at::Tensor looked_up(const ReflectanceMap& map, const at::Tensor& normals) {
-  at::Tensor image = at::zeros_like(normals);
-  const std::int64_t pixels = normals.numel() / 3;
-  const float* n = normals.data_ptr<float>();
-  float* out = image.data_ptr<float>();
-  for (std::int64_t i = 0; i < pixels; ++i) {
-    const Eigen::Vector3f normal(n[i], n[pixels + i], n[2 * pixels + i]);
-    if (normal.isZero()) continue;
-    const Eigen::Vector3f colour = map.colour(normal);
-    for (int c = 0; c < 3; ++c) out[c * pixels + i] = colour[c];
+Image looked_up(const ReflectanceMap& map, const Image& normals) {
+  Image image(normals.width, normals.height, 3);
+  for (std::size_t i = 0; i < normals.values.size(); i += 3) {
+    const auto normal = Eigen::Map<const Eigen::Vector3f>(&normals.values[i]);
+    if (!normal.isZero()) Eigen::Map<Eigen::Vector3f>(&image.values[i]) = map.colour(normal);
   }
   return image;
-}
-
-// Takes the median of the object's values to middle grey.
-double exposure_of(const at::Tensor& image, const at::Tensor& mask) {
-  const at::Tensor values = image.masked_select(mask.expand_as(image) > 0);
-  if (values.numel() == 0) return 1;
-  double level = values.median().item<double>();
-  if (level <= 0) level = values.mean().item<double>();
-  return level > 0 ? middle_grey / level : 1;
 }
 
 }  // namespace
@@ -151,28 +131,21 @@ void EditSamples::add_row(std::uint64_t batch, std::int64_t row, std::int64_t fi
   const std::int64_t view = draw.below(static_cast<int>(views_.size()));
   const bool mirrored = draw.unit() < 0.5;
   const double stops = settings_.varied ? draw.within(-exposure_stops, exposure_stops) : 0;
-  const at::Tensor normals = views_.normals(view, mirrored).contiguous();
+  const at::Tensor normals = views_.normals(view, mirrored);
   const at::Tensor mask = (normals.square().sum(0, true) > 0).to(at::kFloat);
   const auto worn = static_cast<std::size_t>(row % 2), wanted = 1 - worn;
-  const at::Tensor image = looked_up(*group.maps[worn], normals), target = looked_up(*group.maps[wanted], normals);
-  const double exposure = exposure_of(image, mask) * std::exp2(stops);
+  const Image shape = image_of(normals);
+  const Image image = looked_up(*group.maps[worn], shape), target = looked_up(*group.maps[wanted], shape);
+  const double exposure = exposure_by_median(image, image_of(mask)) * std::exp2(stops);
   const std::int64_t at = row - first;
-  result.image[at] = image * exposure;
-  result.target[at] = target * exposure;
+  result.image[at] = planes_of(image) * exposure;
+  result.target[at] = planes_of(target) * exposure;
   result.radiance[at] = group.radiance * exposure;
   result.normals[at] = normals;
   result.material[at] = as_tensor(group.materials[worn]);
   result.target_material[at] = as_tensor(group.materials[wanted]);
-  result.pictures[at].narrow(0, 0, 3) = display_values(image * exposure).clamp_max(1) * mask;
+  result.pictures[at].narrow(0, 0, 3) = display_values(result.image[at]).clamp_max(1) * mask;
   result.pictures[at].narrow(0, 3, 1) = mask;
-}
-
-at::Tensor display_values(const at::Tensor& linear) {
-  constexpr double darkest = 1e-4;  // the slope at zero is finite
-  const double lift = std::pow(darkest, 1 / gamma);
-  const at::Tensor positive = linear.clamp_min(0);
-  const at::Tensor curve = ((positive + darkest).pow(1 / gamma) - lift) / (std::pow(1 + darkest, 1 / gamma) - lift);
-  return at::where(positive <= 1, curve, 1 + 0.1 * positive.clamp_min(1).log());
 }
 
 }  // namespace partwise

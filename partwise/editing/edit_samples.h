@@ -65,8 +65,4 @@ class EditSamples {
   EditSamplesSettings settings_;
 };
 
-// Linear colours as they are shown and as networks see them: exponent 1 / 2.2. From 0 to 1 for what a display can show,
-// beyond that a tenth of the logarithm more, so that what is too bright still has a gradient. shown(1) = 1.
-at::Tensor display_values(const at::Tensor& linear);
-
 }  // namespace partwise

@@ -2,7 +2,6 @@
 
 #include <ATen/Functions.h>
 #include <ATen/TensorOperators.h>
-#include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -103,12 +102,7 @@ WeightsFile EditingNetworks::weights() const {
 }
 
 EditingNetworks read_editing_networks(const std::filesystem::path& path) {
-  const WeightsFile header = read_weights_header(path);
-  const auto json = nlohmann::json::parse(header.settings, nullptr, false);
-  if (header.kind != kind || !json.is_object()) {
-    throw InputError(path.string(), fmt::format("is a network for \"{}\"", header.kind),
-                     fmt::format("give one for \"{}\"", kind));
-  }
+  const auto json = nlohmann::json::parse(read_weights_settings(path, kind));
   EditingNetworksSettings settings;
   settings.size = json.value("size", settings.size);
   settings.normal_channels = json.value("normal_channels", settings.normal_channels);

@@ -15,29 +15,14 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
-#include "partwise/editing/edit_samples.h"
 #include "partwise/editing/editing_networks.h"
+#include "partwise/editing/sampled_task.h"
 #include "partwise/learning/perceptual_features.h"
-#include "partwise/learning/training_task.h"
 
 namespace partwise {
 
-struct EditingWeights {
-  double normal = 1, material = 1, light = 0.1, pixel = 1, perceptual = 0;
-};
-
-struct EditingTaskSettings {
-  std::vector<EditingWeights> stages;
-  bool given_normals = false, given_light = false;
-  int layer_light = 32;  // columns
-  int layer_map = 32;    // texels along a side
-  int perceptual_side = 64;
-  std::int64_t validation_batches = 8;
-};
-
-class EditingTask final : public TrainingTask {
+class EditingTask final : public SampledTask {
  public:
   // The samples must outlive this.
   EditingTask(EditingNetworks networks, const EditSamples& training, const EditSamples& validation,
@@ -45,33 +30,13 @@ class EditingTask final : public TrainingTask {
 
   torch::nn::Module& network() override { return networks_.module(); }
   WeightsFile weights() const override { return networks_.weights(); }
-  Losses training_losses(std::int64_t step, int stage, const Rows& rows) override;
-  Losses validation_losses(std::int64_t batch, int stage, const Rows& rows) override;
-  std::int64_t validation_batches() const override { return settings_.validation_batches; }
 
  private:
-  Losses losses(const EditBatch& batch, const EditingWeights& weights) const;
+  Losses losses(const EditBatch& batch, const EditingWeights& weights) const override;
 
   EditingNetworks networks_;
-  const EditSamples& training_;
-  const EditSamples& validation_;
-  EditingTaskSettings settings_;
   MaterialRange range_;
   std::optional<PerceptualFeatures> features_;
 };
-
-// 1 x 1 x h x 1: what a pixel of each row of a map counts on the sphere, 1 in the mean.
-at::Tensor row_weights(std::int64_t rows);
-
-// Mean over the object's pixels and channels, a row; of a row without object 0. Values B x C x S x S, mask B x 1 x S x
-// S.
-at::Tensor object_mean(const at::Tensor& values, const at::Tensor& mask);
-
-// The perceptual distance of images that are reduced to a side first, a row.
-at::Tensor reduced_perceptual_distance(const PerceptualFeatures& features, const at::Tensor& a, const at::Tensor& b,
-                                       int side);
-
-// Maps of radiance, B x 3 x h x w, reduced to fewer columns; energy is kept.
-at::Tensor reduced_light(const at::Tensor& radiance, int columns);
 
 }  // namespace partwise

@@ -10,6 +10,8 @@
 #include "partwise/appearance/material/material_files.h"
 #include "partwise/base/error.h"
 #include "partwise/base/read_bytes.h"
+#include "partwise/editing/editing_task.h"
+#include "partwise/editing/encoder_decoder.h"
 #include "partwise/learning/training_fields.h"
 
 namespace partwise {

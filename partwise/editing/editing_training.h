@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "partwise/editing/encoder_decoder.h"
+#include "partwise/editing/editing_networks.h"
+#include "partwise/editing/sampled_task.h"
 #include "partwise/learning/training_loop.h"
 
 namespace partwise {

@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
-#include <utility>
 #include <vector>
 
 #include "partwise/base/error.h"
+#include "partwise/editing/picture_terms.h"
 #include "partwise/learning/network_blocks.h"
 
 namespace partwise {
@@ -87,48 +87,24 @@ torch::nn::Module& EncoderDecoder::module() const { return *modules_; }
 WeightsFile EncoderDecoder::weights() const { return {kind, nlohmann::ordered_json{{"size", modules_->size}}.dump()}; }
 
 EncoderDecoder read_encoder_decoder(const std::filesystem::path& path) {
-  const WeightsFile header = read_weights_header(path);
-  const auto json = nlohmann::json::parse(header.settings, nullptr, false);
-  if (header.kind != kind || !json.is_object()) {
-    throw InputError(path.string(), fmt::format("is a network for \"{}\"", header.kind),
-                     fmt::format("give one for \"{}\"", kind));
-  }
+  const auto json = nlohmann::json::parse(read_weights_settings(path, kind));
   EncoderDecoder network(json.value("size", smallest), {at::zeros({dsbrdf_size}), at::ones({dsbrdf_size})});
   read_weights(path, network.module());
   network.module().eval();
   return network;
 }
 
-EncoderDecoderTask::EncoderDecoderTask(EncoderDecoder network, const EditSamples& training,
-                                       const EditSamples& validation, const EditingTaskSettings& settings)
-    : network_(std::move(network)), training_(training), validation_(validation), settings_(settings) {}
-
-Losses EncoderDecoderTask::training_losses(std::int64_t step, int stage, const Rows& rows) {
-  return losses(training_.batch(static_cast<std::uint64_t>(step), rows), stage);
-}
-
-Losses EncoderDecoderTask::validation_losses(std::int64_t batch, int stage, const Rows& rows) {
-  return losses(validation_.batch(static_cast<std::uint64_t>(batch), rows), stage);
-}
-
-Losses EncoderDecoderTask::losses(const EditBatch& batch, int stage) const {
-  const EditingWeights& weights = settings_.stages[static_cast<std::size_t>(stage)];
+Losses EncoderDecoderTask::losses(const EditBatch& batch, const EditingWeights& weights) const {
   const MaterialRange range = network_.range();
   const Redrawn found = network_(batch.pictures, range.scaled(batch.target_material));
   const at::Tensor target = display_values(batch.target).clamp_max(1);
   Losses result;
-  result.total = at::zeros({});
-  const auto add = [&](const char* name, double weight, const at::Tensor& rows) {
-    const at::Tensor mean = rows.mean();
-    result.terms.emplace_back(name, mean.item<double>());
-    result.total = result.total + weight * mean;
-  };
   if (weights.material > 0)
-    add("material", weights.material, (found.material - range.scaled(batch.material)).square().mean(1));
-  if (weights.pixel > 0) add("pixel", weights.pixel, object_mean((found.image - target).square(), batch.mask()));
+    result.add("material", weights.material, (found.material - range.scaled(batch.material)).square().mean(1));
+  if (weights.pixel > 0) result.add("pixel", weights.pixel, object_mean((found.image - target).square(), batch.mask()));
   if (weights.perceptual > 0) {
-    add("perceptual", weights.perceptual,
-        reduced_perceptual_distance(features_, found.image, target, settings_.perceptual_side));
+    result.add("perceptual", weights.perceptual,
+               reduced_perceptual_distance(features_, found.image, target, settings().perceptual_side));
   }
   return result;
 }

@@ -11,9 +11,14 @@
 
 #include <ATen/core/Tensor.h>
 
+#include <filesystem>
 #include <memory>
+#include <utility>
 
-#include "partwise/editing/editing_task.h"
+#include "partwise/editing/material_range.h"
+#include "partwise/editing/sampled_task.h"
+#include "partwise/learning/checkpoint.h"
+#include "partwise/learning/perceptual_features.h"
 
 namespace partwise {
 
@@ -41,25 +46,20 @@ class EncoderDecoder {
 EncoderDecoder read_encoder_decoder(const std::filesystem::path& path);
 
 // Trained on the same pictures as the others, by the terms `material`, `pixel` and `perceptual` of the target alone.
-class EncoderDecoderTask final : public TrainingTask {
+class EncoderDecoderTask final : public SampledTask {
  public:
   // The samples must outlive this.
   EncoderDecoderTask(EncoderDecoder network, const EditSamples& training, const EditSamples& validation,
-                     const EditingTaskSettings& settings);
+                     const EditingTaskSettings& settings)
+      : SampledTask(training, validation, settings), network_(std::move(network)) {}
 
   torch::nn::Module& network() override { return network_.module(); }
   WeightsFile weights() const override { return network_.weights(); }
-  Losses training_losses(std::int64_t step, int stage, const Rows& rows) override;
-  Losses validation_losses(std::int64_t batch, int stage, const Rows& rows) override;
-  std::int64_t validation_batches() const override { return settings_.validation_batches; }
 
  private:
-  Losses losses(const EditBatch& batch, int stage) const;
+  Losses losses(const EditBatch& batch, const EditingWeights& weights) const override;
 
   EncoderDecoder network_;
-  const EditSamples& training_;
-  const EditSamples& validation_;
-  EditingTaskSettings settings_;
   PerceptualFeatures features_ = PerceptualFeatures::shipped();
 };
 

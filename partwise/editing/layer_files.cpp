@@ -4,13 +4,12 @@
 #include <ATen/TensorOperators.h>
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "partwise/appearance/material/material_files.h"
 #include "partwise/appearance/rendering/light_tree.h"
 #include "partwise/appearance/rendering/material_ball.h"
 #include "partwise/base/atomic_file.h"
 #include "partwise/base/error.h"
+#include "partwise/editing/image_tensors.h"
 #include "partwise/imaging/exr.h"
 #include "partwise/imaging/png.h"
 #include "partwise/imaging/tone_mapping.h"
@@ -19,13 +18,6 @@ namespace partwise {
 namespace {
 
 constexpr int ball_size = 128;
-
-Image interleaved(const at::Tensor& planes) {  // 1 x C x h x w
-  const at::Tensor rows = planes[0].permute({1, 2, 0}).contiguous();
-  Image image(static_cast<int>(rows.size(1)), static_cast<int>(rows.size(0)), static_cast<int>(rows.size(2)));
-  std::copy_n(rows.data_ptr<float>(), image.values.size(), image.values.begin());
-  return image;
-}
 
 }  // namespace
 
@@ -37,9 +29,9 @@ void write_layers(const std::filesystem::path& folder, const PhotoLayers& layers
     write_file(folder / name, encode_png(image, codes));
   };
   const EnvironmentLight light = light_of(layers);
-  write("normals.png", interleaved((layers.found.normals + 1) / 2), PngCodes::plain16);
-  write("picture.png", interleaved(layers.picture), PngCodes::plain8);
-  write("rendered.png", interleaved(rendered(layers.found, range, layers.regions).clamp(0, 1)), PngCodes::plain8);
+  write("normals.png", image_of((layers.found.normals[0] + 1) / 2), PngCodes::plain16);
+  write("picture.png", image_of(layers.picture[0]), PngCodes::plain8);
+  write("rendered.png", image_of(rendered(layers.found, range, layers.regions)[0].clamp(0, 1)), PngCodes::plain8);
   write_file(folder / "light.exr", encode_exr(light.radiance()));
   const at::Tensor rows = range.coefficients(layers.found.material);
   const LightTree tree(light);

@@ -8,8 +8,7 @@
 #include <utility>
 
 #include "partwise/base/error.h"
-#include "partwise/editing/edit_samples.h"
-#include "partwise/editing/editing_task.h"
+#include "partwise/editing/picture_terms.h"
 #include "partwise/learning/rendering_layer.h"
 
 namespace partwise {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "partwise/editing/edit_photo.h"
+#include "partwise/editing/picture_terms.h"
 #include "partwise/editing/test_editing.h"
 
 namespace partwise {

@@ -20,14 +20,12 @@ struct Neighbours {
 };
 
 Neighbours neighbours_of(const Mesh& mesh) {
-  std::vector<std::pair<int, int>> all, along_border;
+  std::vector<std::pair<int, int>> all, along_border;  // `all` becomes both
   for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {
     const auto [low, high] = std::pair(edge[0].low, edge[0].high);
-    for (auto* pairs : {&all, &along_border}) {
-      if (pairs == &along_border && edge.size() > 1) continue;
-      pairs->emplace_back(low, high);
-      pairs->emplace_back(high, low);
-    }
+    std::vector<std::pair<int, int>>& pairs = edge.size() == 1 ? along_border : all;
+    pairs.emplace_back(low, high);
+    pairs.emplace_back(high, low);
   });
   std::vector<char> on_border(static_cast<std::size_t>(mesh.vertices.rows()), 0);
   for (const auto& [from, to] : along_border) on_border[from] = 1;

@@ -113,6 +113,13 @@ WeightsFile read_weights_header(const std::filesystem::path& path) {
   });
 }
 
+std::string read_weights_settings(const std::filesystem::path& path, const std::string& kind) {
+  const WeightsFile header = read_weights_header(path);
+  if (header.kind == kind) return header.settings;
+  throw InputError(path.string(), fmt::format("is a network for \"{}\"", header.kind),
+                   fmt::format("give one for \"{}\"", kind));
+}
+
 void read_weights(const std::filesystem::path& path, torch::nn::Module& network) {
   const auto whole = read_whole(path);
   const auto stored =

@@ -1,7 +1,7 @@
 // Networks in files, by libtorch's archives.
 //
 // A weights file holds what kind of network it is, its settings as JSON, and its parameters and buffers, in half
-// precision where that is asked for; Python's torch.load reads it as a dictionary. A checkpoint holds parameters, the
+// precision where that is asked for. A checkpoint holds parameters, the
 // state of an optimiser, and where a training stood. Both appear whole or not at all. Errors: InputError for a file
 // that cannot be read or written, is damaged, is no such file, or is of another network.
 #pragma once
@@ -31,6 +31,8 @@ enum class WeightsPrecision { half, single };
 void write_weights(const std::filesystem::path& path, const WeightsFile& what, const torch::nn::Module& network,
                    WeightsPrecision precision);
 WeightsFile read_weights_header(const std::filesystem::path& path);
+// The settings of a file of this kind. Errors: InputError for one of another kind as well.
+std::string read_weights_settings(const std::filesystem::path& path, const std::string& kind);
 void read_weights(const std::filesystem::path& path, torch::nn::Module& network);
 
 // Where a training stands.

@@ -1,8 +1,8 @@
 // The gradients of processes that share a batch, averaged: libtorch's process group over Gloo.
 //
 // Processes meet at MASTER_ADDR:MASTER_PORT, where the first of them listens. One process alone exchanges nothing.
-// Errors: InputError where the variables are missing or the processes do not find each other within half an hour
-// (c10d's own limit), or one of them is gone.
+// Errors: InputError where the variables are missing or the processes do not find each other in c10d's
+// time, or one of them is gone.
 #pragma once
 
 #include <memory>

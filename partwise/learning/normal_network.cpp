@@ -21,18 +21,17 @@ at::Tensor doubled(const at::Tensor& maps, int side) {
 struct NormalNetwork::Scales : torch::nn::Module {
   explicit Scales(const NormalNetworkSettings& given) : settings(given) {
     PARTWISE_CHECK(settings.size % largest_divisor, ==, 0);
-    const int c = settings.channels;
+    const int c = settings.channels, first = c / 2 / 8 * 8 + 8, wide = c + 16;  // multiples of 8
     const int deepest = settings.size / largest_divisor;
-    encoder =
-        register_module("encoder", halving_convolutions(4, {c / 2 / 8 * 8 + 8, c, 3 * c / 2 / 8 * 8, 2 * c, 2 * c}));
+    encoder = register_module("encoder", halving_convolutions(4, {first, c, 3 * c / 2 / 8 * 8, 2 * c, 2 * c}));
     narrow = register_module("narrow", convolution(2 * c, 32, 1));
     whole = register_module("whole", connected(32 * deepest * deepest, 256, settings.dropout));
     spread = register_module("spread", torch::nn::Linear(256, handed_on * coarse_side * coarse_side));
 
-    quarter_picture = register_module("quarter_picture", halving_convolutions(4, {c / 2 / 8 * 8 + 8, c}));
+    quarter_picture = register_module("quarter_picture", halving_convolutions(4, {first, c}));
     quarter = register_module("quarter", torch::nn::Sequential());
-    for (int i = 0; i < 3; ++i) quarter->extend(*convolution(i == 0 ? c + handed_on : c + 16, c + 16));
-    quarter->extend(*convolution(c + 16, handed_on));
+    for (int i = 0; i < 3; ++i) quarter->extend(*convolution(i == 0 ? c + handed_on : wide, wide));
+    quarter->extend(*convolution(wide, handed_on));
 
     half_picture = register_module("half_picture", convolution(4, c - handed_on, 5, 2));
     half = register_module("half", torch::nn::Sequential());

@@ -41,11 +41,7 @@ PerceptualFeatures PerceptualFeatures::shipped() {
 }
 
 PerceptualFeatures::PerceptualFeatures(const std::filesystem::path& path) {
-  const WeightsFile header = read_weights_header(path);
-  if (header.kind != vgg16_start_kind) {
-    throw InputError(path.string(), fmt::format("is a network for \"{}\"", header.kind),
-                     "give models/networks/vgg16_start.pt");
-  }
+  read_weights_settings(path, vgg16_start_kind);
   auto convolutions = std::make_shared<Convolutions>();
   read_weights(path, convolutions->weights);
   convolutions_ = std::move(convolutions);

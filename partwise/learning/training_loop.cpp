@@ -9,8 +9,8 @@
 
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <memory>
-#include <optional>
 
 #include "partwise/base/atomic_file.h"
 #include "partwise/base/error.h"
@@ -102,8 +102,11 @@ class Training {
     while (!done() && state_.stage_step >= stage().steps) next_stage();
   }
 
+  // What is best is told anew: stages weigh the terms of their loss each in its own way.
   void next_stage() {
     ++state_.stage;
+    if (done()) return;
+    state_.best = std::numeric_limits<double>::infinity();
     state_.stage_step = state_.unimproved = 0;
   }
 

@@ -1,10 +1,11 @@
 // Trains a network: Adam in stages, checkpoints, a log, early stopping, and going on where it stopped.
 //
 // In `output`: checkpoint.pt (network, optimiser and step: what a training goes on from), best.pt (the network with the
-// least validation loss so far), log.jsonl (a line a report) and events.out.tfevents.* (the same for TensorBoard).
-// Files appear whole or not at all, but for the log and the events, which grow; going on cuts the log back to the
-// checkpoint. Random numbers are functions of the seed and the step, so that a training that was stopped and went on,
-// at any moment, has the losses of one that was not, to the bit on the same machine with the same number of threads.
+// least validation loss of the stage), log.jsonl (a line a report) and events.out.tfevents.* (the same for
+// TensorBoard). Files appear whole or not at all, but for the log and the events, which grow; going on cuts the log
+// back to the checkpoint. Random numbers are functions of the seed and the step, so that a training that was stopped
+// and went on, at any moment, has the losses of one that was not, to the bit on the same machine with the same number
+// of threads.
 //
 // Several processes (base/ranks.h) share each batch and average gradients through Gloo; MASTER_ADDR and MASTER_PORT say
 // where they meet. The first of them writes the files.

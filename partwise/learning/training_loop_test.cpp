@@ -7,8 +7,8 @@
 #include <torch/types.h>
 #include <torch/utils.h>
 
+#include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -35,12 +35,15 @@ class Line final : public TrainingTask {
     if (step == stop_at) throw Cancelled();
     return losses(static_cast<std::uint64_t>(step), rows);
   }
-  Losses validation_losses(std::int64_t batch, int, const Rows& rows) override {
-    return losses(1000000 + static_cast<std::uint64_t>(batch), rows);
+  Losses validation_losses(std::int64_t batch, int stage, const Rows& rows) override {
+    Losses result = losses(1000000 + static_cast<std::uint64_t>(batch), rows);
+    if (stage > 0) result.total = result.total * later_stages_weigh;
+    return result;
   }
   std::int64_t validation_batches() const override { return 2; }
 
   std::int64_t stop_at = -1;
+  double later_stages_weigh = 1;
 
  private:
   struct Module : torch::nn::Module {
@@ -124,6 +127,22 @@ TEST(TrainingLoop, GoesOnWithTheSameLossesToTheBit) {
     }
   }
   EXPECT_EQ(log_of(parts.path()), log_of(whole.path()));
+}
+
+// Stages weigh terms differently: the best of the last is told by its own losses.
+TEST(TrainingLoop, TheBestIsThatOfTheStage) {
+  const TestFolder folder;
+  Line line;
+  line.later_stages_weigh = 100;
+  TrainingSettings stages = settings(folder.path());
+  stages.validate_every = 4;
+  const TrainingReport report = train(line, stages, {}, false);
+  double least = INFINITY;
+  for (const nlohmann::json& entry : log_of(folder.path())) {
+    if (entry.contains("validation") && entry["step"] > 17)
+      least = std::min(least, entry["validation"]["loss"].get<double>());
+  }
+  EXPECT_EQ(report.best, least);
 }
 
 // A process that is killed leaves the last checkpoint, and a log that is ahead of it.

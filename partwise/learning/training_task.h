@@ -21,6 +21,9 @@ namespace partwise {
 struct Losses {
   at::Tensor total;
   std::vector<std::pair<std::string, double>> terms;
+
+  // A term, a number a row.
+  void add(const std::string& name, double weight, const at::Tensor& rows);
 };
 
 class TrainingTask {

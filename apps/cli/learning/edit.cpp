@@ -82,6 +82,8 @@ std::optional<EnvironmentLight> other_light(const Options& options) {
 void edit(const Options& options, Run& run) {
   run.outputs.add_input("PHOTO", options.photo);
   for (const std::string& mask : options.masks) run.outputs.add_input("--mask", mask);
+  for (const std::string& mask : options.other_masks) run.outputs.add_input("--from-mask", mask);
+  if (!options.other.empty()) run.outputs.add_input("--from", options.other);
   run.outputs.add("-o", options.output, {".png"});
   const EditingNetworks networks = run.stage("weights", [&] { return read_editing_networks(weights_file(options)); });
   const Photo photo = run.stage("read", [&] {

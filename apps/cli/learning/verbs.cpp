@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "learning_verbs.h"
+
 namespace partwise::cli {
 
 namespace {
@@ -10,5 +12,6 @@ constexpr std::array list = {&train_verb, &edit_verb};
 }
 
 std::span<const Verb* const> verbs() { return list; }
+std::span<const LearningVerb> verbs_elsewhere() { return {}; }
 
 }  // namespace partwise::cli
