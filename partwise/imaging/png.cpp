@@ -130,6 +130,7 @@ Image decode_plain_png(const std::string& file, std::string_view bytes) {
   std::vector<png_bytep> rows;
   bool read = guarded(reader.png, [&] {
     png_set_read_fn(reader.png, &rest, take);
+    png_set_chunk_malloc_max(reader.png, bytes.size());  // whatever length a damaged chunk claims
     png_read_info(reader.png, reader.info);
   });
   if (read) check_size(file, reader.png, reader.info, bytes.size());
