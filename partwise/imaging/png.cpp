@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <csetjmp>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <vector>
@@ -79,6 +80,31 @@ void take(png_structp png, png_bytep data, std::size_t size) {
   rest.remove_prefix(size);
 }
 
+std::uint32_t big_endian(std::string_view four) {
+  std::uint32_t value = 0;
+  for (const char c : four) value = value << 8 | static_cast<unsigned char>(c);
+  return value;
+}
+
+InputError not_whole(const std::string& file, const std::string& why) {
+  return {file, fmt::format("is not a whole PNG file ({})", why), "give a file that an image viewer opens"};
+}
+
+// libpng sets aside what a chunk announces before it reads any of it: gigabytes, where a length is damaged.
+void check_chunks(const std::string& file, std::string_view bytes) {
+  constexpr std::size_t signature = 8, length_and_type = 8, checksum = 4;
+  if (bytes.size() < signature || png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes.data()), 0, signature)) return;
+  std::string_view rest = bytes.substr(signature);
+  while (rest.size() >= length_and_type) {
+    const std::uint32_t length = big_endian(rest.substr(0, 4));
+    if (rest.size() - length_and_type < length + checksum) {
+      throw not_whole(file, fmt::format("a chunk announces {} bytes, more than follow", length));
+    }
+    if (rest.substr(4, 4) == "IEND") return;
+    rest.remove_prefix(length_and_type + length + checksum);
+  }
+}
+
 // A header may announce a million pixels a side, whatever follows. What was deflated grows 1032-fold at most.
 void check_size(const std::string& file, png_structp png, png_infop info, std::size_t bytes) {
   const std::size_t width = png_get_image_width(png, info), height = png_get_image_height(png, info);
@@ -123,6 +149,7 @@ void write_png(const std::filesystem::path& path, const Image& image, PngCodes c
 Image read_png(const std::filesystem::path& path) { return decode_png(path.string(), read_bytes(path)); }
 
 Image decode_plain_png(const std::string& file, std::string_view bytes) {
+  check_chunks(file, bytes);
   Reader reader;
   Image image;
   std::string_view rest = bytes;
@@ -130,7 +157,6 @@ Image decode_plain_png(const std::string& file, std::string_view bytes) {
   std::vector<png_bytep> rows;
   bool read = guarded(reader.png, [&] {
     png_set_read_fn(reader.png, &rest, take);
-    png_set_chunk_malloc_max(reader.png, bytes.size());  // whatever length a damaged chunk claims
     png_read_info(reader.png, reader.info);
   });
   if (read) check_size(file, reader.png, reader.info, bytes.size());
@@ -151,10 +177,7 @@ Image decode_plain_png(const std::string& file, std::string_view bytes) {
       png_read_end(reader.png, nullptr);
     });
   }
-  if (!read) {
-    throw InputError(file, fmt::format("is not a whole PNG file ({})", reader.error),
-                     "give a file that an image viewer opens");
-  }
+  if (!read) throw not_whole(file, reader.error);
   for (std::size_t i = 0; i < image.values.size(); ++i) {
     image.values[i] = static_cast<float>(samples[2 * i] * 256 + samples[2 * i + 1]) / 65535;
   }
