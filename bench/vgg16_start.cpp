@@ -70,7 +70,7 @@ int main(int argc, char** argv) {
       read_biases(std::filesystem::path(folder) / ("bias_" + name), binary_places[index], start.channels[index + 1],
                   start.biases[index].data_ptr<float>());
     }
-    partwise::write_weights(out, {partwise::vgg16_start_kind, "{}"}, start, partwise::WeightsPrecision::half);
+    partwise::write_weights(out, {partwise::vgg16_start_kind, "{}"}, start);
     return 0;
   });
 }

@@ -81,7 +81,7 @@ class Train(unittest.TestCase):
         self.assertGreater(report["loss"], 0)
         log = self.log(output)
         self.assertEqual([line["step"] for line in log if "training" in line], [2, 4, 6])
-        self.assertEqual([line["step"] for line in log if "validation" in line], [4])
+        self.assertEqual([line["step"] for line in log if "validation" in line], [4, 6])
         self.assertEqual(set(log[0]["training"]), {"loss", "normal", "material", "light", "pixel", "gradient", "learning_rate"})
         for name in ("best.pt", "checkpoint.pt", "config.json"):
             self.assertTrue((output / name).is_file(), name)

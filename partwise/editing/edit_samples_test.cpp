@@ -97,6 +97,8 @@ TEST(StoredViews, MirroringExchangesLeftAndRight) {
   EXPECT_TRUE(mirrored[1].equal(plain[1].flip(1)));
   EXPECT_TRUE(mirrored[0].equal(-plain[0].flip(1)));
   EXPECT_EQ(test::views().size(), 6);
+  EXPECT_TRUE((test::views().parts(2) > 0).equal(test::views().normals(2).square().sum(0) > 0));
+  EXPECT_TRUE(test::views().parts(2, true).equal(test::views().parts(2).flip(1)));
 }
 
 }  // namespace

@@ -91,13 +91,10 @@ c10::Dict<c10::IValue, c10::IValue> read_whole(const std::filesystem::path& path
 
 }  // namespace
 
-void write_weights(const std::filesystem::path& path, const WeightsFile& what, const torch::nn::Module& network,
-                   WeightsPrecision precision) {
+void write_weights(const std::filesystem::path& path, const WeightsFile& what, const torch::nn::Module& network) {
   Tensors tensors;
-  for (const auto& [name, tensor] : tensors_of(network)) {
-    const bool halved = precision == WeightsPrecision::half && tensor.is_floating_point();
-    tensors.insert(name, tensor.detach().to(halved ? at::kHalf : tensor.scalar_type()).clone());
-  }
+  for (const auto& each : network.named_parameters()) tensors.insert(each.key(), each.value().detach().to(at::kHalf));
+  for (const auto& each : network.named_buffers()) tensors.insert(each.key(), each.value().clone());
   c10::impl::GenericDict whole(c10::StringType::get(), c10::AnyType::get());
   whole.insert("kind", what.kind);
   whole.insert("settings", what.settings);

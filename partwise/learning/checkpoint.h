@@ -1,8 +1,8 @@
 // Networks in files, by libtorch's archives.
 //
-// A weights file holds what kind of network it is, its settings as JSON, and its parameters and buffers, in half
-// precision where that is asked for. A checkpoint holds parameters, the
-// state of an optimiser, and where a training stood. Both appear whole or not at all. Errors: InputError for a file
+// A weights file holds what kind of network it is, its settings as JSON, its parameters in half precision, which is as
+// good for use, and its buffers as they are. A checkpoint holds parameters, the state of an optimiser, and where a
+// training stood. Both appear whole or not at all. Errors: InputError for a file
 // that cannot be read or written, is damaged, is no such file, or is of another network.
 #pragma once
 
@@ -26,10 +26,7 @@ struct WeightsFile {
   std::string settings;  // JSON
 };
 
-enum class WeightsPrecision { half, single };
-
-void write_weights(const std::filesystem::path& path, const WeightsFile& what, const torch::nn::Module& network,
-                   WeightsPrecision precision);
+void write_weights(const std::filesystem::path& path, const WeightsFile& what, const torch::nn::Module& network);
 WeightsFile read_weights_header(const std::filesystem::path& path);
 // The settings of a file of this kind. Errors: InputError for one of another kind as well.
 std::string read_weights_settings(const std::filesystem::path& path, const std::string& kind);

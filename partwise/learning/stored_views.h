@@ -1,7 +1,7 @@
-// What cameras saw of shapes, many views in memory: the normals of every pixel, from the shards of data sets.
+// What cameras saw of shapes, many views in memory: the normals and parts of every pixel, from the shards of data sets.
 // Materials and light are put on later, as often and as different as one likes.
 //
-// Four bytes a pixel: the normal's x and y in steps of 1/32767. Normals that lean away from the viewer are
+// Five bytes a pixel: the normal's x and y in steps of 1/32767 and the part. Normals that lean away from the viewer are
 // moved to the rim. A pixel counts as object where more than half of it is covered. Errors: InputError for shards that
 // cannot be read, hold no normals or masks, or views of different sizes.
 #pragma once
@@ -28,13 +28,15 @@ class StoredViews {
 
   // 3 x S x S, unit vectors in camera space, zero in the background. Mirrored: left and right exchanged.
   at::Tensor normals(std::int64_t view, bool mirrored = false) const;
+  // S x S of bytes: part + 1, 0 in the background.
+  at::Tensor parts(std::int64_t view, bool mirrored = false) const;
 
  private:
-  static constexpr std::int16_t background = -32768;
   struct View {
-    std::vector<std::int16_t> x, y;  // x is `background` where there is none
+    std::vector<std::int16_t> x, y;
+    std::vector<std::uint8_t> part;
   };
-  void add(const std::string& place, const Image& normals, const Image& mask);
+  void add(const std::string& place, const Image& normals, const Image& mask, const Image& parts);
 
   int side_ = 0;
   std::vector<View> views_;

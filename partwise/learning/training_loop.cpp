@@ -136,7 +136,7 @@ class Training {
     ++state_.step;
     ++state_.stage_step;
     if (state_.step % settings_.report_every == 0) report();
-    if (state_.step % settings_.validate_every == 0) validate();
+    if (state_.step % settings_.validate_every == 0 || state_.stage_step == stage().steps) validate();
     skip_empty_stages();
     if (state_.step % settings_.checkpoint_every == 0) save();
   }
@@ -207,7 +207,7 @@ class Training {
     if (loss < state_.best) {
       state_.best = loss;
       state_.unimproved = 0;
-      if (first_) write_weights(file("best.pt"), task_.weights(), task_.network(), WeightsPrecision::single);
+      if (first_) write_weights(file("best.pt"), task_.weights(), task_.network());
     } else if (++state_.unimproved >= settings_.patience && settings_.patience > 0) {
       next_stage();
     }

@@ -222,7 +222,7 @@ TEST(RowDropout, RowsOfOneMask) {
   EXPECT_TRUE(masked({0, 6, 6}).equal(ones));
 }
 
-TEST(Weights, AreTheSameAfterwards) {
+TEST(Weights, AreTheSameInHalfPrecision) {
   const TestFolder folder;
   const std::filesystem::path path = folder.path() / "w.pt";
   Line a, b;
@@ -230,13 +230,9 @@ TEST(Weights, AreTheSameAfterwards) {
     const at::NoGradGuard no_gradient;
     for (at::Tensor& each : b.network().parameters()) each.fill_(0);
   }
-  write_weights(path, {"line", "{\"x\": 1}"}, a.network(), WeightsPrecision::single);
+  write_weights(path, {"line", "{\"x\": 1}"}, a.network());
   EXPECT_EQ(read_weights_header(path).kind, "line");
   EXPECT_EQ(read_weights_header(path).settings, "{\"x\": 1}");
-  read_weights(path, b.network());
-  for (std::size_t i = 0; i < a.network().parameters().size(); ++i)
-    EXPECT_TRUE(a.network().parameters()[i].equal(b.network().parameters()[i]));
-  write_weights(path, {"line", "{}"}, a.network(), WeightsPrecision::half);
   read_weights(path, b.network());
   for (std::size_t i = 0; i < a.network().parameters().size(); ++i)
     EXPECT_TRUE(a.network().parameters()[i].to(at::kHalf).to(at::kFloat).equal(b.network().parameters()[i]));

@@ -1,8 +1,10 @@
 // partwise train: a configuration to a trained network.
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -28,10 +30,21 @@ EditingTraining read_config(const Options& options, const Run& run) {
   return training;
 }
 
+// Every step asks for the same large tensors: what is freed stays with the process, where giving it back and having it
+// cleared anew would take a third of the time.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int never = std::numeric_limits<int>::max();
+  mallopt(M_MMAP_THRESHOLD, never);
+  mallopt(M_TRIM_THRESHOLD, never);
+#endif
+}
+
 void train_network(const Options& options, Run& run) {
   run.outputs.add_input("CONFIG", options.config);
   const EditingTraining training = run.stage("read", [&] { return read_config(options, run); });
   const Rank rank = rank_from_environment();
+  keep_freed_memory();
   run.if_stopped = "a checkpoint was written, and --resume goes on from there";
   const TrainingReport report =
       run.stage("train", [&] { return train_editing(training, rank, options.resume, run.progress); });
