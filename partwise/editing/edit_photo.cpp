@@ -17,24 +17,6 @@ namespace {
 
 constexpr int map_size = 128;
 
-// 1 x C x side x side of an image's crop, zero beyond it.
-at::Tensor cropped(const Image& image, const Crop& crop) {
-  at::Tensor result = at::zeros({1, image.channels, crop.side, crop.side});
-  const std::int64_t plane = std::int64_t{crop.side} * crop.side;
-  float* out = result.data_ptr<float>();
-  for (int y = std::max(0, -crop.y); y < std::min(crop.side, image.height - crop.y); ++y)
-    for (int x = std::max(0, -crop.x); x < std::min(crop.side, image.width - crop.x); ++x)
-      for (int c = 0; c < image.channels; ++c)
-        out[c * plane + std::int64_t{y} * crop.side + x] = image.pixel(x + crop.x, y + crop.y)[c];
-  return result;
-}
-
-at::Tensor resized(const at::Tensor& images, std::int64_t side) {
-  if (images.size(3) == side) return images;
-  if (images.size(3) > side) return at::adaptive_avg_pool2d(images, {side, side});
-  return at::upsample_bilinear2d(images, {side, side}, /*align_corners=*/false);
-}
-
 // display_values from a table: one tensor for each of a million pixels would take minutes.
 class DisplayCurve {
  public:
@@ -59,12 +41,15 @@ PhotoLayers read_layers(const EditingNetworks& networks, const Photo& photo, con
   const std::int64_t size = networks.settings().size;
   PhotoLayers layers;
   layers.crop = crop_of(photo);
+  const auto square = [&](const Image& image) {
+    return cropped(image, layers.crop.x, layers.crop.y, layers.crop.side);
+  };
   at::Tensor mask = at::zeros({1, 1, size, size});
   for (const Image& region : photo.regions) {
-    layers.regions.push_back((resized(cropped(region, layers.crop), size) > 0.5).to(at::kFloat));
+    layers.regions.push_back((resized(square(region), size) > 0.5).to(at::kFloat));
     mask = at::maximum(mask, layers.regions.back());
   }
-  const at::Tensor colours = resized(cropped(photo.shown, layers.crop), size);
+  const at::Tensor colours = resized(square(photo.shown), size);
   layers.picture = at::cat({colours * mask, mask}, 1);
   progress("look", 0);
   layers.found.normals = networks.normals(layers.picture);

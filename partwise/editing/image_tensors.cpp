@@ -19,4 +19,21 @@ Image image_of(const at::Tensor& planes) {
   return image;
 }
 
+at::Tensor cropped(const Image& image, int x, int y, int side) {
+  at::Tensor result = at::zeros({1, image.channels, side, side});
+  const std::int64_t plane = std::int64_t{side} * side;
+  float* out = result.data_ptr<float>();
+  for (int row = std::max(0, -y); row < std::min(side, image.height - y); ++row)
+    for (int column = std::max(0, -x); column < std::min(side, image.width - x); ++column)
+      for (int c = 0; c < image.channels; ++c)
+        out[c * plane + std::int64_t{row} * side + column] = image.pixel(column + x, row + y)[c];
+  return result;
+}
+
+at::Tensor resized(const at::Tensor& squares, std::int64_t side) {
+  if (squares.size(3) == side) return squares;
+  if (squares.size(3) > side) return at::adaptive_avg_pool2d(squares, {side, side});
+  return at::upsample_bilinear2d(squares, {side, side}, /*align_corners=*/false);
+}
+
 }  // namespace partwise

@@ -10,4 +10,10 @@ namespace partwise {
 at::Tensor planes_of(const Image& image);  // C x h x w, floats
 Image image_of(const at::Tensor& planes);  // of C x h x w floats
 
+// 1 x C x side x side: the square whose upper left pixel is (x, y), zero beyond the image.
+at::Tensor cropped(const Image& image, int x, int y, int side);
+
+// Of squares B x C x s x s: means of pixels where they become smaller, else bilinear.
+at::Tensor resized(const at::Tensor& squares, std::int64_t side);
+
 }  // namespace partwise

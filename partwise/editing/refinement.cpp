@@ -46,7 +46,8 @@ class Energy {
     const PictureLayers at = directions(point);
     const at::Tensor of_light = ((at.log_radiance - start_.log_radiance).square() * weights_).sum() * light_share_;
     return image_error(at) + settings_.normal_weight * (at.normals - start_.normals).square().sum() +
-           settings_.light_weight * of_light;
+           settings_.light_weight * of_light +
+           settings_.material_weight * (at.material - start_.material).square().sum();
   }
 
   // Mean over the object's pixels and channels, 0 to 255 squared.
@@ -104,12 +105,12 @@ Refinement refined(const PictureLayers& start, const MaterialRange& range, const
   PictureLayers point = start;
   const double before = energy.mean_error(start);
   const at::AutoGradMode with_gradient(true);
-  for (int round = 0; round < settings.rounds; ++round) {
-    int part = 0;
-    for (at::Tensor* variable : {&point.material, &point.log_radiance, &point.normals}) {
-      progress("refine", (round + part++ / 3.0) / settings.rounds);
-      minimise(energy, point, *variable, settings.steps);
-    }
+  std::vector<at::Tensor*> variables = {&point.material, &point.log_radiance};
+  if (!settings.normals_known) variables.push_back(&point.normals);
+  const auto minimisations = static_cast<std::size_t>(settings.rounds) * variables.size();
+  for (std::size_t i = 0; i < minimisations; ++i) {
+    progress("refine", static_cast<double>(i) / static_cast<double>(minimisations));
+    minimise(energy, point, *variables[i % variables.size()], settings.steps);
   }
   point = energy.directions(point);
   return {point, before, energy.mean_error(point)};

@@ -1,6 +1,6 @@
 // What networks have read off a picture, made to explain it better (dissertation, section 3.3.5): L-BFGS on
 //
-//   |I* - I|^2 + a |n* - n|^2 + b |L* - L|^2,   a = 1, b = 10   (3.6)
+//   |I* - I|^2 + a |n* - n|^2 + b |L* - L|^2 + c |m* - m|^2,   a = 1, b = 10, c = 0   (3.6)
 //
 // over material, light and normals, one after the other, again and again. I and I* are display values, sums over the
 // object's pixels and channels; normals are unit vectors, the sum is over the same pixels; light is compared by its
@@ -20,7 +20,8 @@
 namespace partwise {
 
 struct RefinementSettings {
-  double normal_weight = 1, light_weight = 10;
+  double normal_weight = 1, light_weight = 10, material_weight = 0;
+  bool normals_known = false;  // stay as they are
   int rounds = 3;
   int steps = 10;        // of L-BFGS, of each of the three a round
   int layer_light = 64;  // columns that light is reduced to
