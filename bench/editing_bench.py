@@ -2,8 +2,9 @@
 """The dissertation's Tables 3.1 and 3.2 for trained networks, on views, materials and lights that they have not seen. See
 bench/README.md.
 
-    editing_bench.py VIEWS... --joint F.pt [--alone F.pt] [--combined F.pt] [--separate F.pt]
-        [--encoder-decoder F.pt] [--count 500] [--refine]
+    editing_bench.py NETS [--count 500] [--refine] [--record]
+
+NETS is a folder of editing_training.py; of its networks, those that are there are judged.
 """
 
 import argparse
@@ -15,64 +16,74 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from harness import history  # noqa: E402
 from harness.process import BIN, expect  # noqa: E402
-from harness.table import mean, table  # noqa: E402
+from harness.table import cell, mean, table  # noqa: E402
 
-PUBLISHED = {"Table 3.2, encoder-decoder": (1076.7, 0.9173), "Table 3.1, standalone": (544.1, 0.9297), "Table 3.1, combined": (355.5, 0.9517), "Table 3.2, individual": (886.9, 0.9256),
-             "Table 3.2, individual, refined": (1273.7, 0.9159), "Table 3.2, joint": (805.2, 0.9408),
-             "Table 3.2, joint, refined": (530.9, 0.9557)}
+# Name of the row; network, how it is judged, which of its figures; the dissertation's L2 and SSIM. With --refine,
+# rows of pictures that were looked at without help are followed by the same refined.
+ROWS = {
+    "material alone, standalone": ("standalone", ["--given"], "render", (544.1, 0.9297)),
+    "material alone, combined": ("combined", ["--given"], "render", (355.5, 0.9517)),
+    "true normals, the rest optimised": ("joint", ["--known-normals"], "transfer", (802.7, 0.9416)),
+    "encoder-decoder": ("encoder_decoder", [], "transfer", (1076.7, 0.9173)),
+    "individual": ("separate", [], "transfer", (886.9, 0.9256)),
+    "joint": ("joint", [], "transfer", (805.2, 0.9408)),
+    "joint, parts": ("joint", ["--parts"], "transfer", None),
+}
+REFINED = {"individual": (1273.7, 0.9159), "joint": (530.9, 0.9557), "joint, parts": (1272.1, 0.9362)}
 
 
 def parse(words):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     add = parser.add_argument
-    add("views", type=Path, nargs="+", help="folders of shards of views")
-    add("--joint", type=Path, help="weights trained through the rendering layer")
-    add("--separate", type=Path, help="weights of networks trained one by one (baseline 2)")
-    add("--encoder-decoder", type=Path, help="weights of an encoder-decoder (baseline 1)")
-    add("--alone", type=Path, help="weights whose material network was trained on coefficients alone")
-    add("--combined", type=Path, help="weights whose material network was trained through the layer, normals and light given")
+    add("nets", type=Path, help="a folder of editing_training.py")
     add("--count", type=int, default=500, help="pictures")
-    add("--refine", action="store_true")
+    add("--refine", action="store_true", help="refine what networks find as well")
     add("--tool", type=Path, default=BIN / "editing_errors")
     add("--record", action="store_true", help="append the result to bench/history/editing.jsonl")
     return parser.parse_args(words)
 
 
-def measured(options, weights, *more):
-    done = expect([options.tool, weights, *options.views, "--count", options.count, *more], 36000)
+def measured(options, name, how):
+    network, words, _, _ = ROWS[name]
+    views = options.nets / "views" / ("test_parts" if "--parts" in words else "test")
+    done = expect([options.tool, options.nets / network / "best.pt", views, "--count", options.count, *words, *how], 36000)
     return [json.loads(line) for line in done.output.splitlines()]
 
 
-def figures(pictures, key):
-    return {name: mean([each[key][name] for each in pictures if name in each[key]])
-            for name in ("l2", "ssim", "l2_frame", "ssim_frame")}
+def figures(pictures, prefix, key):
+    images = [each[prefix + key] for each in pictures]
+    found = {name: mean([each[name] for each in images if name in each]) for name in ("l2", "ssim", "l2_frame", "ssim_frame")}
+    for name in ("l2_frame", "ssim_frame"):
+        found[f"{name}_same_exposure"] = mean([each["same_exposure"][name] for each in images])
+    if prefix + "cosine" in pictures[0]:
+        found["cosine"] = mean([each[prefix + "cosine"] for each in pictures])
+    if key == "transfer" and prefix + "render" in pictures[0]:
+        found["render_l2"] = mean([each[prefix + "render"]["l2"] for each in pictures])
+    if not prefix and "material" in pictures[0]:
+        found["material"] = mean([each["material"] for each in pictures])
+    return found
 
 
 def main(words):
     options = parse(words)
-    found = {}
-    for name, weights in (("standalone", options.alone), ("combined", options.combined)):
-        if weights:
-            pictures = measured(options, weights, "--given")
-            found[f"Table 3.1, {name}"] = figures(pictures, "render") | {"material": mean([each["material"] for each in pictures])}
-    if options.encoder_decoder:
-        pictures = measured(options, options.encoder_decoder)
-        found["Table 3.2, encoder-decoder"] = figures(pictures, "transfer") | {"material": mean([each["material"] for each in pictures])}
-    for name, weights in (("individual", options.separate), ("joint", options.joint)):
-        if weights:
-            pictures = measured(options, weights, *(["--refine"] if options.refine else []))
-            for prefix, ending in (("", ""), ("refined_", ", refined")):
-                if prefix + "transfer" in pictures[0]:
-                    found[f"Table 3.2, {name}{ending}"] = figures(pictures, prefix + "transfer") | {
-                        "render_l2": figures(pictures, prefix + "render")["l2"],
-                        "cosine": mean([each[prefix + "cosine"] for each in pictures])}
-    rows = [[name, f"{each['l2']:.1f}", f"{each['ssim']:.4f}", f"{each['l2_frame']:.1f}", f"{each['ssim_frame']:.4f}",
-             *(f"{value:g}" for value in PUBLISHED[name])] for name, each in found.items()]
-    print(table(["", "L2", "SSIM", "L2 frame", "SSIM frame", "published L2", "SSIM"], rows))
-    for name, each in found.items():
-        more = {key: round(value, 4) for key, value in each.items() if key in ("material", "render_l2", "cosine")}
-        print(f"{name}: {more}")
-    print(f"{options.count} pictures; L2 and SSIM over the object, then over the frame")
+    found, published = {}, {}
+    for name, (network, _, key, known) in ROWS.items():
+        if not (options.nets / network / "best.pt").exists():
+            continue
+        refine = options.refine and name in REFINED
+        pictures = measured(options, name, ["--refine"] if refine else [])
+        found[name], published[name] = figures(pictures, "", key), known
+        if refine:
+            again = f"{name}, refined"
+            found[again], published[again] = figures(pictures, "refined_", key), REFINED[name]
+
+    columns = {"l2": ".1f", "ssim": ".4f", "l2_frame": ".1f", "ssim_frame": ".4f", "l2_frame_same_exposure": ".1f", "ssim_frame_same_exposure": ".4f",
+               "cosine": ".3f", "render_l2": ".1f", "material": ".2f"}
+    rows = [[name, *(cell(each.get(key), form) for key, form in columns.items()), *map(cell, published[name] or (None, None))]
+            for name, each in found.items()]
+    print(table(["", "L2", "SSIM", "L2 frame", "SSIM frame", "same exposure, L2 frame", "SSIM frame", "cosine", "seen, L2", "material", "published L2", "SSIM"], rows))
+    print(f"{options.count} pictures; L2 and SSIM over the object, then over the frame, each image exposed by itself or both as the true one; "
+          "seen: the picture itself rendered anew")
     if options.record:
         print(f"recorded in {history.record('editing', {'count': options.count, 'tables': found})}")
     return 0
