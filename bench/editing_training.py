@@ -36,12 +36,14 @@ RENDERED = {"normal": 1, "material": 0.3, "light": 0.1, "pixel": 3, "perceptual"
 # Steps of 16 pictures, and what they minimise (docs/training.md); "start": of which network's weights.
 NETWORKS = {
     "individual": {"network": "editing", "steps": 6000, "rates": (1e-3, 3e-4), "terms": LAYERS},
-    "combined": {"network": "editing", "start": "individual", "given": ["normals", "light"], "steps": 3000, "rates": (1e-3, 5e-5),
-                 "terms": {"material": 0.3, "pixel": 3}},
-    "joint": {"network": "editing", "start": "combined", "steps": 6000, "rates": (3e-4, 2e-5), "terms": RENDERED},
+    "shaded": {"network": "editing", "start": "individual", "given": ["normals"], "steps": 4000, "rates": (1e-3, 3e-4),
+               "terms": {"material": 0.3, "light": 0.1, "pixel": 3}},
+    "joint": {"network": "editing", "start": "shaded", "steps": 6000, "rates": (5e-4, 2e-5), "terms": RENDERED},
     "separate": {"network": "editing", "start": "individual", "steps": 9000, "rates": (3e-4, 2e-5), "terms": LAYERS},
     "standalone": {"network": "editing", "start": "individual", "given": ["normals", "light"], "steps": 3000, "rates": (1e-3, 5e-5),
                    "terms": {"material": 1, "pixel": 0}},
+    "combined": {"network": "editing", "start": "individual", "given": ["normals", "light"], "steps": 3000, "rates": (1e-3, 5e-5),
+                 "terms": {"material": 0.3, "pixel": 3}},
     "encoder_decoder": {"network": "encoder_decoder", "steps": 6000, "rates": (1e-3, 2e-5), "terms": {"material": 1, "pixel": 10, "perceptual": 0.5}},
     "photos": {"network": "editing", "start": "joint", "materials": "all", "lights": "all", "steps": 2000, "rates": (1e-4, 1e-5), "terms": RENDERED},
 }

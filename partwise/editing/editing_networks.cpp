@@ -44,17 +44,20 @@ struct LightModule : torch::nn::Module {
   explicit LightModule(const EditingNetworksSettings& settings) {
     encoder = register_module("encoder", halving_convolutions(4, widths));
     connected_layers = register_module("connected", connected(encoded(settings.size), 256, settings.dropout));
-    connected_layers->push_back(torch::nn::Linear(256, channels * rows * columns));
+    spread = register_module("spread", torch::nn::Linear(256, channels * rows * columns));
     decoder = register_module("decoder", doubling_convolution(channels, 48));
     decoder->extend(*doubling_convolution(48, 40));
     decoder->extend(*doubling_convolution(40, 24));
     decoder->push_back(torch::nn::ConvTranspose2d(torch::nn::ConvTranspose2dOptions(24, 3, 4).stride(2).padding(1)));
+    level = register_module("level", torch::nn::Linear(256, 3));
   }
   at::Tensor forward(const at::Tensor& pictures) {
-    const at::Tensor seen = connected_layers->forward(encoder->forward(pictures).flatten(1)).relu();
-    return decoder->forward(seen.reshape({-1, channels, rows, columns}));
+    const at::Tensor seen = connected_layers->forward(encoder->forward(pictures).flatten(1));
+    const at::Tensor map = decoder->forward(spread->forward(seen).relu().reshape({-1, channels, rows, columns}));
+    return map + level->forward(seen).reshape({-1, 3, 1, 1});
   }
   torch::nn::Sequential encoder{nullptr}, connected_layers{nullptr}, decoder{nullptr};
+  torch::nn::Linear spread{nullptr}, level{nullptr};
 };
 
 }  // namespace

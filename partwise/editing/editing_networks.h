@@ -4,7 +4,8 @@
 //   material  seven convolutions that each halve the size, three fully connected layers, tanh: 108 coefficients scaled
 //             as material_range.h says; the range is a part of the network
 //   light     seven such convolutions, two fully connected layers, four deconvolutions: a map of 64 x 128, as the
-//             natural logarithm of radiance
+//             natural logarithm of radiance; its level and colour, which deconvolutions with normalisation lose, are
+//             told by a layer of their own and added
 //
 // Shapes: pictures B x 4 x S x S, as NormalNetwork has them. Radiance is in the unit in which a picture's value 1 is
 // the largest that it shows. Errors: CheckFailed for other shapes and for sizes that 32 does not divide or below 128.

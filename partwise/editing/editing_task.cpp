@@ -42,9 +42,11 @@ Losses EditingTask::losses(const EditBatch& batch, const EditingWeights& weights
 
   const at::Tensor light = reduced_light(radiance, settings().layer_light);
   const auto shown = [&](const at::Tensor& coefficients) {
-    return display_values(mapped_images(normals, coefficients, light, settings().layer_map));
+    return mapped_images(normals, coefficients, light, settings().layer_map);
   };
-  const at::Tensor image = shown(range_.coefficients(material)), target = shown(batch.target_material);
+  const at::Tensor image = display_values(shown(range_.coefficients(material)));
+  // One picture does not tell how bright the light is, only how bright together with the material.
+  const at::Tensor target = display_values(exposed_as(shown(batch.target_material), batch.target, batch.mask()));
   const at::Tensor true_image = display_values(batch.image).clamp_max(1);
   const at::Tensor true_target = display_values(batch.target).clamp_max(1);
   if (weights.pixel > 0) {

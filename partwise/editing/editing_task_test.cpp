@@ -82,6 +82,38 @@ TEST(EditingNetworks, AreReadAsTheyWereWritten) {
   EXPECT_THROW(read_editing_networks(path), InputError);
 }
 
+// Discs of a plain colour each, on black.
+at::Tensor coloured_discs(const at::Tensor& colours) {
+  constexpr int side = 128;
+  const at::Tensor place = at::linspace(-1.2, 1.2, side).square();
+  const at::Tensor disc = (place.unsqueeze(0) + place.unsqueeze(1) < 1).to(at::kFloat);
+  return at::cat({colours, at::ones({colours.size(0), 1})}, 1).unsqueeze(2).unsqueeze(3) * disc;
+}
+
+// Whoever cannot learn to name a plain colour that nobody showed before will not learn materials and lights.
+TEST(EditingNetworks, LearnColoursTheyHaveNotSeen) {
+  EditingNetworks given = networks();
+  torch::optim::Adam adam(given.module().parameters(), 1e-3);
+  const auto losses = [&] {
+    const at::Tensor colours = at::rand({4, 3});
+    const at::Tensor pictures = coloured_discs(colours), wanted = colours - 0.5;
+    const at::Tensor material = given.scaled_material(pictures).narrow(1, 0, 3);
+    const at::Tensor light = given.log_radiance(pictures).mean({2, 3});
+    return std::pair{(material - wanted).square().mean(), (light - wanted).square().mean()};
+  };
+  for (int step = 0; step < 150; ++step) {
+    adam.zero_grad();
+    const auto [material, light] = losses();
+    (material + light).backward();
+    adam.step();
+  }
+  const at::NoGradGuard no_gradient;
+  const auto [material, light] = losses();
+  const double of_the_mean = 1.0 / 12;
+  EXPECT_LT(material.item<double>(), 0.1 * of_the_mean);
+  EXPECT_LT(light.item<double>(), 0.1 * of_the_mean);
+}
+
 TEST(EditingTask, EveryTermReachesItsNetworks) {
   const EditSamples samples = test::samples(true);
   const Rows rows{0, 4, 4};
@@ -186,6 +218,17 @@ TEST(EncoderDecoder, LearnsABatchByHeartAndIsReadAsItWasWritten) {
   const at::Tensor wanted = network.range().scaled(batch.target_material);
   EXPECT_TRUE(read(batch.pictures, wanted).image.equal(network(batch.pictures, wanted).image));
   EXPECT_THROW(read_editing_networks(folder.path() / "w.pt"), InputError);
+}
+
+TEST(ExposedAs, UndoesWhatMadeAnImageDarkerOverItsObject) {
+  torch::manual_seed(3);
+  const at::Tensor truths = torch::rand({2, 3, 8, 8}) + 10, stops = torch::tensor({0.25, 0.5}).reshape({2, 1, 1, 1});
+  at::Tensor mask = at::zeros({2, 1, 8, 8});
+  mask.narrow(2, 2, 4).fill_(1);
+  at::Tensor images = truths * stops;
+  images.narrow(2, 7, 1).fill_(100);  // off the object: does not count
+  const at::Tensor same = exposed_as(images, truths, mask);
+  EXPECT_LT(((same / truths - 1) * mask).abs().max().item<double>(), 0.01);
 }
 
 TEST(ReducedLight, KeepsEnergy) {

@@ -28,7 +28,8 @@ struct EncoderDecoder::Modules : torch::nn::Module {
     PARTWISE_CHECK(size & (size - 1), ==, 0);
     int from = 4;
     for (std::size_t i = 0; i < widths.size(); ++i) {
-      encoder.push_back(register_module(fmt::format("encoder{}", i), convolution(from, widths[i], i == 0 ? 5 : 3, 2)));
+      encoder.push_back(
+          register_module(fmt::format("encoder{}", i), halving_convolution(from, widths[i], i == 0 ? 5 : 3)));
       from = widths[i];
     }
     const int values = widths.back() * deepest * deepest;

@@ -33,6 +33,12 @@ at::Tensor object_mean(const at::Tensor& values, const at::Tensor& mask) {
   return sums / mask.sum({1, 2, 3}).clamp_min(1);
 }
 
+at::Tensor exposed_as(const at::Tensor& images, const at::Tensor& truths, const at::Tensor& mask) {
+  constexpr double dark = 0.01;
+  const at::Tensor stops = object_mean(((truths + dark) / (images.clamp_min(0) + dark)).log(), mask);
+  return images * stops.exp().reshape({-1, 1, 1, 1});
+}
+
 at::Tensor reduced_perceptual_distance(const PerceptualFeatures& features, const at::Tensor& a, const at::Tensor& b,
                                        int side) {
   if (a.size(3) == side) return perceptual_distance(features, a, b);

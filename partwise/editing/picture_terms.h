@@ -17,6 +17,10 @@ at::Tensor display_values(const at::Tensor& linear);
 // Mean over the object's pixels and channels, a row; of a row without object 0.
 at::Tensor object_mean(const at::Tensor& values, const at::Tensor& mask);
 
+// Linear images made brighter or darker, a row, so that the object's mean of log(value + 0.01) comes near that of the
+// truth's.
+at::Tensor exposed_as(const at::Tensor& images, const at::Tensor& truths, const at::Tensor& mask);
+
 // The perceptual distance of images that are reduced to a side first, a row.
 at::Tensor reduced_perceptual_distance(const PerceptualFeatures& features, const at::Tensor& a, const at::Tensor& b,
                                        int side);

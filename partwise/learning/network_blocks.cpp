@@ -1,6 +1,7 @@
 #include "partwise/learning/network_blocks.h"
 
 #include <ATen/Functions.h>
+#include <torch/nn/init.h>
 #include <torch/nn/modules/activation.h>
 #include <torch/nn/modules/normalization.h>
 
@@ -15,6 +16,14 @@ void add_normalised_rectifier(torch::nn::Sequential& layers, int channels) {
   PARTWISE_CHECK(channels % channels_a_group, ==, 0);
   layers->push_back(torch::nn::GroupNorm(channels / channels_a_group, channels));
   layers->push_back(torch::nn::ReLU());
+}
+
+// What passes neither grows nor fades from layer to layer (He, Zhang, Ren and Sun 2015, "Delving deep into
+// rectifiers").
+template <typename Layer>
+void start_for_rectifier(Layer& layer) {
+  torch::nn::init::kaiming_normal_(layer.weight, 0, torch::kFanIn, torch::kReLU);
+  torch::nn::init::zeros_(layer.bias);
 }
 
 }  // namespace
@@ -39,13 +48,17 @@ torch::nn::Sequential convolution(int from, int to, int kernel, int stride) {
   return layers;
 }
 
+torch::nn::Sequential halving_convolution(int from, int to, int kernel) {
+  torch::nn::Conv2d convolution(torch::nn::Conv2dOptions(from, to, kernel).stride(2).padding(kernel / 2));
+  start_for_rectifier(*convolution);
+  return torch::nn::Sequential(convolution, torch::nn::ReLU());
+}
+
 torch::nn::Sequential halving_convolutions(int from, const std::vector<int>& channels) {
   torch::nn::Sequential layers;
-  int kernel = 5;
   for (const int to : channels) {
-    layers->extend(*convolution(from, to, kernel, 2));
+    layers->extend(*halving_convolution(from, to, layers->is_empty() ? 5 : 3));
     from = to;
-    kernel = 3;
   }
   return layers;
 }
@@ -58,7 +71,9 @@ torch::nn::Sequential doubling_convolution(int from, int to) {
 }
 
 torch::nn::Sequential connected(int from, int to, double dropout) {
-  return torch::nn::Sequential(torch::nn::Linear(from, to), torch::nn::ReLU(), RowDropout(dropout));
+  torch::nn::Linear linear(from, to);
+  start_for_rectifier(*linear);
+  return torch::nn::Sequential(linear, torch::nn::ReLU(), RowDropout(dropout));
 }
 
 }  // namespace partwise

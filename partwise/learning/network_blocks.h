@@ -1,8 +1,10 @@
 // Layers that the networks of this project are made of. Internal to the rooms that have networks: it names torch/nn,
 // which takes long to compile.
 //
-// Activations are normalised over groups of eight channels of each sample (Wu and He 2018, "Group normalization"), not
-// over a batch: a sample's result then does not depend on its neighbours, and a batch may be shared between processes.
+// Where it is said, activations are normalised over groups of eight channels of each sample (Wu and He 2018, "Group
+// normalization"), not over a batch: a sample's result then does not depend on its neighbours, and a batch may be
+// shared between processes. On the way in, normalisation takes from a picture how bright it is and of what colour:
+// shape does not need that, material and light are little else.
 #pragma once
 
 #include <torch/nn/modules/container/sequential.h>
@@ -33,7 +35,9 @@ void take_rows(torch::nn::Module& network, const Rows& rows);
 
 // Convolution, its size kept but for the stride; normalisation; rectifier.
 torch::nn::Sequential convolution(int from, int to, int kernel = 3, int stride = 1);
-// Convolutions that each halve the size, the first of 5 x 5 and from `from` channels, the others of 3 x 3.
+// Convolution that halves the size; rectifier.
+torch::nn::Sequential halving_convolution(int from, int to, int kernel = 3);
+// Several of them, the first of 5 x 5 and from `from` channels, the others of 3 x 3.
 torch::nn::Sequential halving_convolutions(int from, const std::vector<int>& channels);
 // Transposed convolution that doubles the size; normalisation; rectifier.
 torch::nn::Sequential doubling_convolution(int from, int to);
