@@ -15,7 +15,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "examples"))
 import load_shards  # noqa: E402
 
 PROGRAM = Path(sys.argv[1]).resolve()
-MODELS = Path(__file__).resolve().parents[2] / "data" / "models"
+REPOSITORY = Path(__file__).resolve().parents[2]
+MODELS = REPOSITORY / "data" / "models"
 
 
 def run(*arguments, cwd=None):
@@ -81,6 +82,27 @@ class Edit(unittest.TestCase):
         done = self.edit("00000000.png", *masks, "--from", "00000001.png", "-o", "c.png", "--light", "park")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertTrue((self.folder / "c.png").is_file())
+
+    def test_networks_that_ship_give_the_other_materials_colour(self):
+        scene = json.loads((REPOSITORY / "examples" / "photo.json").read_text()) | {"size": [128, 128]}
+        for material in ("red-specular-plastic", "blue-rubber"):
+            scene["meshes"][0]["material"] = material
+            (self.folder / "scene.json").write_text(json.dumps(scene))
+            done = run("render", "scene.json", "--folder", REPOSITORY / "examples", "--png", f"{material}.png", "--mask", "mask.png", "--quiet",
+                       cwd=self.folder)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        done = run("edit", "red-specular-plastic.png", "--material", "blue-rubber", "-o", "blue.png", "--quiet", cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+        def tint(name):  # mean colour of the object, however bright: renderings are exposed each by itself
+            pixels, mask = (sum(self.pixels(each), []) for each in (name, "mask.png"))
+            sums = [sum(pixel[c] for pixel, covered in zip(pixels, mask, strict=True) if covered[0] == 255) for c in range(3)]
+            return [each / sum(sums) for each in sums]
+
+        def difference(name):
+            return max(abs(a - b) for a, b in zip(tint(name), tint("blue-rubber.png"), strict=True))
+
+        self.assertLess(difference("blue.png"), difference("red-specular-plastic.png") / 3)
 
     def test_what_is_refused(self):
         whole = (self.folder / "net/best.pt").read_bytes()

@@ -1,6 +1,6 @@
 // partwise_demo OUT_DIR: decomposes the shipped models, draws them, lets copies of them fall into a heap, and writes
-// OUT_DIR/index.html and OUT_DIR/materials.html, self-contained pages, and OUT_DIR/hero.png: four models, their parts
-// and hulls in one picture.
+// OUT_DIR/index.html, materials.html and, in a build with libtorch, edits.html, self-contained pages, OUT_DIR/hero.png,
+// four models, their parts and hulls in one picture, and OUT_DIR/edits.png, a picture of a car and edits of it.
 
 #include <fmt/format.h>
 #include <tbb/info.h>
@@ -13,6 +13,9 @@
 #include <filesystem>
 #include <future>
 
+#ifdef PARTWISE_DEMO_EDITS
+#include "edits.h"
+#endif
 #include "materials.h"
 #include "outlines.h"
 #include "page.h"
@@ -20,6 +23,7 @@
 #include "partwise/base/shared_files.h"
 #include "partwise/geometry/mesh_io.h"
 #include "partwise/imaging/png.h"
+#include "partwise/imaging/tile.h"
 #include "pictures.h"
 #include "surfaces.h"
 
@@ -99,7 +103,7 @@ void write_hero(const std::filesystem::path& path, const std::vector<demo::Model
   for (const auto row : {&demo::ModelPictures::input, &demo::ModelPictures::parts, &demo::ModelPictures::hulls}) {
     for (const demo::ModelPictures& model : models) pictures.push_back(model.*row);
   }
-  partwise::write_png(path, demo::tile(pictures, static_cast<int>(models.size())));
+  partwise::write_png(path, partwise::tile(pictures, static_cast<int>(models.size())));
 }
 
 void run(const std::filesystem::path& folder) {
@@ -146,12 +150,21 @@ void run(const std::filesystem::path& folder) {
     return *std::ranges::find_if(worn, [&](const demo::WornModel& model) { return model.name == name; });
   };
   const demo::MaterialsStory materials = demo::tell_materials(worn, named("Chair"), named("Toy car"));
+  partwise::write_file(folder / "materials.html", demo::make_materials_page(materials));
+  story.others.push_back({"materials.html", "Parts in real materials, under real light"});
+#ifdef PARTWISE_DEMO_EDITS
+  show("editing pictures");
+  const std::vector<demo::WornModel> swapped = {named("Toy car"), named("Teddy bear"), named("Jar"), named("Horse")};
+  const demo::EditsStory edits = demo::tell_edits(named("Toy car"), named("Chair"), swapped);
+  partwise::write_png(folder / "edits.png", edits.strip);
+  partwise::write_file(folder / "edits.html", demo::make_edits_page(edits));
+  story.others.push_back({"edits.html", "One picture in, any material out"});
+#endif
   show("simulating and drawing the heap");
   story.pile = tell_pile(settings, pile.get());
   story.seconds = seconds_since(start);
   write_hero(folder / "hero.png", hero);
   partwise::write_file(folder / "index.html", demo::make_page(story));
-  partwise::write_file(folder / "materials.html", demo::make_materials_page(materials));
   show("");
   fmt::print("{} models and a heap of {} in {:.1f} s: {}\n", models.size(), settings.bodies, story.seconds,
              (folder / "index.html").string());

@@ -9,14 +9,13 @@
 #include <numbers>
 
 #include "partwise/appearance/material/material_files.h"
-#include "partwise/appearance/palette.h"
-#include "partwise/appearance/rendering/image_formation.h"
 #include "partwise/appearance/rendering/material_ball.h"
 #include "partwise/appearance/shapes/part_groups.h"
 #include "partwise/appearance/synthesis/sample_plan.h"
+#include "partwise/imaging/tile.h"
 #include "partwise/imaging/tone_mapping.h"
 #include "partwise/parts/surface/segmentation.h"
-#include "pictures.h"
+#include "views.h"
 
 namespace demo {
 namespace {
@@ -29,89 +28,6 @@ constexpr int light_rows = 128;  // of mirrors and what one looks at closely; ra
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-EnvironmentLight light_of(const std::string& name, int rows) { return shipped_light(name).resized(2 * rows, rows); }
-
-// make_picture gives values the curve of sRGB; those that are codes already lose it here.
-Image from_codes(Image codes) {
-  for (std::size_t i = 0; i < codes.values.size(); ++i) {
-    if (codes.channels != 4 || i % 4 != 3) codes.values[i] = linear_from_srgb(codes.values[i]);
-  }
-  return codes;
-}
-
-Image for_the_eye(const Image& linear, float exposure) {
-  Image mapped = tone_map(linear, exposure);
-  for (float& value : mapped.values) value /= 255;
-  return from_codes(std::move(mapped));
-}
-
-// colour(pixel) with the alpha of the mask.
-template <typename Colour>
-Image channel_image(const GBuffer& seen, const Colour& colour) {
-  const Image mask = seen.mask_image();
-  Image image(mask.width, mask.height, 4);
-  for (std::size_t i = 0; i < mask.values.size(); ++i) {
-    const Eigen::Vector3f value = colour(i);
-    std::copy_n(value.data(), 3, &image.values[4 * i]);
-    image.values[4 * i + 3] = mask.values[i];
-  }
-  return image;
-}
-
-Image normals_of(const GBuffer& seen) {
-  const Image normals = seen.normal_image();
-  return from_codes(channel_image(seen, [&](std::size_t i) -> Eigen::Vector3f {
-    return (Eigen::Map<const Eigen::Vector3f>(&normals.values[3 * i]).array() + 1) / 2;
-  }));
-}
-
-Image depth_of(const GBuffer& seen) {
-  const Image depth = seen.depth_image();
-  float near = 1e30f, far = 0;
-  for (const float each : depth.values) {
-    if (each > 0) near = std::min(near, each), far = std::max(far, each);
-  }
-  return from_codes(channel_image(seen, [&](std::size_t i) -> Eigen::Vector3f {
-    return Eigen::Vector3f::Constant(0.95f - 0.75f * (depth.values[i] - near) / std::max(far - near, 1e-6f));
-  }));
-}
-
-Image parts_of(const GBuffer& seen) {
-  const std::vector<int> parts = seen.part_of_pixels();
-  return channel_image(seen, [&](std::size_t i) -> Eigen::Vector3f { return part_colour(std::max(parts[i], 0)); });
-}
-
-Image mask_of(const GBuffer& seen) {
-  return channel_image(seen, [&](std::size_t) -> Eigen::Vector3f { return Eigen::Vector3f::Constant(0.55f); });
-}
-
-// The view in these materials, one a part, on clear ground. Maps of few texels, or by patches where `fine`.
-Image image_of(const GBuffer& seen, const std::vector<Dsbrdf>& materials, const EnvironmentLight& light, bool fine) {
-  std::vector<ReflectanceMap> maps;
-  std::vector<const ReflectanceMap*> worn;
-  const LightTree tree(light);
-  const LightSamples samples = light_samples(light);
-  maps.reserve(materials.size());
-  worn.reserve(materials.size());
-  for (const Dsbrdf& material : materials)
-    maps.push_back(fine ? ReflectanceMap(PatchSum(material, tree), 96) : ReflectanceMap(material, samples, 48));
-  for (const ReflectanceMap& map : maps) worn.push_back(&map);
-  return for_the_eye(on_clear_ground(mapped_image(seen, worn), seen.mask_image()), grey_card_exposure(light));
-}
-
-GBuffer view_of(const WornModel& model, double azimuth, int size, double share) {
-  const RenderMesh mesh{model.mesh, model.parts};
-  const RenderScene scene({&mesh, 1});
-  return scene.view(frame_share(scene, {.azimuth = azimuth, .share = share}, 1), {size, size, 8});
-}
-
-std::vector<Dsbrdf> brdfs(const std::vector<std::string>& names) {
-  std::vector<Dsbrdf> result;
-  result.reserve(names.size());
-  for (const std::string& name : names) result.push_back(shipped_material(name).brdf);
-  return result;
-}
-
 std::vector<std::string> for_parts(const std::vector<std::string>& names, int parts) {
   std::vector<std::string> worn;
   worn.reserve(static_cast<std::size_t>(parts));
@@ -120,7 +36,7 @@ std::vector<std::string> for_parts(const std::vector<std::string>& names, int pa
 }
 
 std::vector<Picture> tell_balls() {
-  const EnvironmentLight light = light_of("venice", light_rows);
+  const EnvironmentLight light = resized_light("venice", light_rows);
   const LightTree tree(light);
   const float exposure = grey_card_exposure(light);
   std::vector<Picture> balls;
@@ -136,7 +52,7 @@ std::vector<Picture> tell_chairs(WornModel chair) {
   const PartGroups groups = group_parts(chair.mesh, pieces, 3);
   chair.parts = groups.of_face;
   const GBuffer seen = view_of(chair, 35, chair_size, 0.4);
-  const EnvironmentLight light = light_of("lobby", light_rows);
+  const EnvironmentLight light = resized_light("lobby", light_rows);
   std::vector<Picture> pictures;
   for (const std::vector<std::string>& names :
        std::initializer_list<std::vector<std::string>>{{"chrome", "red-fabric", "black-obsidian"},
@@ -146,7 +62,8 @@ std::vector<Picture> tell_chairs(WornModel chair) {
                                                        {"white-marble", "black-fabric", "aluminium"},
                                                        {"dark-red-paint", "beige-fabric", "colonial-maple-223"}}) {
     const std::vector<std::string> worn = for_parts(names, groups.count);
-    pictures.push_back(make_picture(image_of(seen, brdfs(worn), light, true), fmt::format("{}", fmt::join(worn, ", ")),
+    pictures.push_back(make_picture(worn_picture(seen, brdfs_of(worn), light, true),
+                                    fmt::format("{}", fmt::join(worn, ", ")),
                                     fmt::format("A chair in {}", fmt::join(worn, ", "))));
   }
   return pictures;
@@ -157,8 +74,10 @@ void tell_channels(WornModel car, MaterialsStory& story) {
   car.parts = groups.of_face;
   const GBuffer seen = view_of(car, 40, channel_size, 0.42);
   const std::vector<Dsbrdf> worn =
-      brdfs(for_parts({"red-metallic-paint", "black-soft-plastic", "chrome", "gold-paint"}, groups.count));
-  const auto image = [&](const std::string& light) { return image_of(seen, worn, light_of(light, light_rows), true); };
+      brdfs_of(for_parts({"red-metallic-paint", "black-soft-plastic", "chrome", "gold-paint"}, groups.count));
+  const auto image = [&](const std::string& light) {
+    return worn_picture(seen, worn, resized_light(light, light_rows), true);
+  };
   story.channels = {make_picture(image("venice"), "Image", "A toy car in four materials"),
                     make_picture(normals_of(seen), "Normals", "Its normals as colours"),
                     make_picture(depth_of(seen), "Depth", "Its depth, near bright and far dark"),
@@ -186,7 +105,7 @@ std::vector<Picture> tell_samples(std::span<const WornModel> models) {
                   .views = 1};
   std::vector<EnvironmentLight> maps;
   maps.reserve(lights.size());
-  for (const std::string& light : lights) maps.push_back(light_of(light, light_rows / 2));
+  for (const std::string& light : lights) maps.push_back(resized_light(light, light_rows / 2));
   std::vector<Picture> pictures;
   for (int number = 0; number < count; ++number) {
     const Sample drawn = sample(plan, static_cast<std::uint64_t>(number));
@@ -196,7 +115,7 @@ std::vector<Picture> tell_samples(std::span<const WornModel> models) {
     const GBuffer seen = view_of(model, 360.0 / plan.viewpoints * drawn.viewpoint, sample_size, 0.45);
     const EnvironmentLight light =
         maps[static_cast<std::size_t>(drawn.light)].rotated(drawn.light_turn * 180 / std::numbers::pi);
-    const std::array images{image_of(seen, brdfs(materials), light, false), normals_of(seen), parts_of(seen)};
+    const std::array images{worn_picture(seen, brdfs_of(materials), light, false), normals_of(seen), parts_of(seen)};
     pictures.push_back(make_picture(tile(images, 3), fmt::format("{}", fmt::join(materials, ", ")),
                                     fmt::format("{} in random materials under the light {}; its normals; its parts",
                                                 model.name, lights[static_cast<std::size_t>(drawn.light)])));

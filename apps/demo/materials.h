@@ -7,15 +7,9 @@
 #include <vector>
 
 #include "html.h"
-#include "partwise/geometry/mesh.h"
+#include "views.h"
 
 namespace demo {
-
-struct WornModel {
-  std::string name;
-  partwise::Mesh mesh;
-  std::vector<int> parts;  // a face
-};
 
 struct MaterialsStory {
   std::vector<Picture> balls, chairs, channels, lights, samples;

@@ -40,9 +40,10 @@ std::string opening(const Story& story) {
 <p class="lead">Physics engines, planners and robots want convex pieces; people model horses, chairs and coffee cups.
 Partwise finds the few parts whose convex hulls stand in for the shape, within one tolerance that you choose,
 and certifies that they do.</p>
-<p><a href="materials.html">Parts in real materials, under real light</a></p>
-</header>
 )";
+  for (const OtherPage& other : story.others)
+    html += fmt::format("<p><a href=\"{}\">{}</a></p>\n", other.file, other.title);
+  html += "</header>\n";
   html += "<div class=\"hero\">\n" + figure(story.pile.heap, "eager") + "</div>\n<dl class=\"facts large\">\n";
   html += fact("parts a model, mean", fmt::format("{:.1f}", sum.parts / count));
   html += fact("hull volume to solid volume, mean of the closed", fmt::format("{:.2f}", sum.ratio));

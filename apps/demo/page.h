@@ -59,6 +59,10 @@ struct OutlineStory {  // of shapes in the plane
   Picture herd;
 };
 
+struct OtherPage {
+  std::string_view file, title;
+};
+
 struct Story {
   double tolerance = 0;
   int threads = 0;
@@ -66,6 +70,7 @@ struct Story {
   PileStory pile;
   SurfacesStory surfaces;
   OutlineStory outlines;
+  std::vector<OtherPage> others;
   double seconds = 0;  // of the whole run
 };
 

@@ -1,7 +1,7 @@
 """Opens the demo's page in headless Chromium through WebDriver (https://www.w3.org/TR/webdriver2/) and looks at it as a
 reader would: at 390 and at 1440 pixels, in light and in dark.
 
-usage: page_test.py CHROMEDRIVER CHROMIUM PAGE MATERIALS_PAGE
+usage: page_test.py CHROMEDRIVER CHROMIUM FOLDER PAGE MATERIALS_PAGE [EDITS_PAGE]
 """
 
 import json
@@ -13,7 +13,9 @@ import unittest
 import urllib.error
 import urllib.request
 
-driver_path, chromium_path, page_path, materials_path = (pathlib.Path(argument) for argument in sys.argv[1:5])
+driver_path, chromium_path, folder = (pathlib.Path(argument) for argument in sys.argv[1:4])
+pages = [folder / name for name in sys.argv[4:]]
+page_path, materials_path = pages[:2]
 
 # What the page says about itself once it is laid out.
 INSPECT = """
@@ -43,6 +45,7 @@ return {
   links: [...document.querySelectorAll('a')].map(link => link.getAttribute('href')),
   balls: document.querySelectorAll('.wall img').length,
   samples: document.querySelectorAll('.samples img').length,
+  rows: [...document.querySelectorAll('.row')].map(row => row.querySelectorAll('img').length),
   paper: getComputedStyle(document.documentElement).backgroundColor,
   ink: getComputedStyle(document.documentElement).color,
 };
@@ -148,22 +151,33 @@ class Page(unittest.TestCase):
             else:
                 self.assertGreater(int(tests.replace("\u202f", "")), 1000, name)
 
-    def test_the_page_of_materials(self):
-        self.assertIn("materials.html", self.browser.look(1440, "light")["links"])
+    def looks_at(self, page):
+        """At both widths and in both schemes; what every page keeps to is checked."""
+        self.assertIn(page.name, self.browser.look(1440, "light")["links"])
         for width in (390, 1440):
             for scheme in ("light", "dark"):
-                with self.subTest(width=width, scheme=scheme):
-                    seen = self.browser.look(width, scheme, materials_path)
+                with self.subTest(page=page.name, width=width, scheme=scheme):
+                    seen = self.browser.look(width, scheme, page)
                     self.assertEqual((seen["overflow"], seen["outside"], seen["missing"]), (0, [], []))
                     self.assertEqual((seen["unnamed"], seen["foreign"]), (0, 0))
-                    self.assertEqual((seen["balls"], seen["samples"], seen["images"]), (100, 60, 176))
                     self.assertIn("index.html", seen["links"])
                     dark = brightness(seen["paper"]) < brightness(seen["ink"])
                     self.assertEqual(dark, scheme == "dark")
                     self.assertEqual(self.browser.messages(), [])
+                    yield seen
+
+    def test_the_page_of_materials(self):
+        for seen in self.looks_at(materials_path):
+            self.assertEqual((seen["balls"], seen["samples"], seen["images"]), (100, 60, 176))
+
+    @unittest.skipIf(len(pages) < 3, "built without libtorch")
+    def test_the_page_of_edits(self):
+        for seen in self.looks_at(pages[2]):
+            # edits, what was found, the truth, swaps, parts
+            self.assertEqual(seen["rows"], [10, 4, 2, 16, 4])
 
     def test_files_of_bearable_size(self):
-        for path in (page_path, materials_path):
+        for path in pages:
             self.assertLess(path.stat().st_size, 8 * 1024 * 1024, path)
 
 

@@ -95,18 +95,4 @@ ModelPictures draw_model(const Mesh& mesh, const partwise::Decomposition& parts,
   return pictures;
 }
 
-Image tile(std::span<const Image> pictures, int columns) {
-  const Image& first = pictures[0];
-  const int rows = (static_cast<int>(pictures.size()) + columns - 1) / columns;
-  Image sheet(columns * first.width, rows * first.height, first.channels);
-  for (int i = 0; i < static_cast<int>(pictures.size()); ++i) {
-    const Image& picture = pictures[static_cast<std::size_t>(i)];
-    for (int y = 0; y < first.height; ++y) {
-      std::copy_n(picture.pixel(0, y), first.width * first.channels,
-                  sheet.pixel(i % columns * first.width, i / columns * first.height + y));
-    }
-  }
-  return sheet;
-}
-
 }  // namespace demo

@@ -2,8 +2,6 @@
 // hulls drawn apart.
 #pragma once
 
-#include <span>
-
 #include "partwise/appearance/preview.h"
 #include "partwise/parts/solid/decompose.h"
 
@@ -24,8 +22,5 @@ ModelPictures draw_model(const partwise::Mesh& mesh, const partwise::Decompositi
 // The hulls of a decomposition as preview meshes in the colours of the parts; each is moved away from their common
 // centre by `apart` times its distance.
 std::vector<partwise::PreviewMesh> hull_meshes(const partwise::Decomposition& parts, double apart);
-
-// Pictures of equal size side by side, `columns` in a row, on clear ground.
-partwise::Image tile(std::span<const partwise::Image> pictures, int columns);
 
 }  // namespace demo

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "partwise/appearance/rendering/light_tree.h"
 #include "partwise/appearance/rendering/reflectance_map.h"
 #include "partwise/base/error.h"
 #include "partwise/editing/image_tensors.h"
@@ -16,6 +17,7 @@ namespace partwise {
 namespace {
 
 constexpr int map_size = 128;
+constexpr int fine = 4;  // pixels along a side of one of the light's: mirrors have lobes narrower than those
 
 // display_values from a table: one tensor for each of a million pixels would take minutes.
 class DisplayCurve {
@@ -81,7 +83,7 @@ Image edited(const Photo& photo, const PhotoLayers& layers, const std::vector<Ds
   const at::Tensor normals = resized(layers.found.normals, crop.side).contiguous();
   const std::int64_t plane = std::int64_t{crop.side} * crop.side;
   const float* n = normals.data_ptr<float>();
-  const LightSamples samples = light_samples(light ? light->resized(light_columns, light_rows) : light_of(layers));
+  const LightTree tree((light ? *light : light_of(layers)).resized(fine * light_columns, fine * light_rows));
   const DisplayCurve curve;
   Image result(photo.shown.width, photo.shown.height, photo.has_alpha ? 4 : 3);
   for (std::size_t i = 0; i < photo.alpha.values.size(); ++i) {
@@ -90,7 +92,8 @@ Image edited(const Photo& photo, const PhotoLayers& layers, const std::vector<Ds
     if (channels == 4) result.values[4 * i + 3] = photo.alpha.values[i];
   }
   for (std::size_t region = 0; region < materials.size(); ++region) {
-    const ReflectanceMap map(Dsbrdf(materials[region]), samples, map_size);
+    const Dsbrdf material(materials[region]);
+    const ReflectanceMap map(PatchSum(material, tree), map_size);
     const Image& mask = photo.regions[region];
     tbb::parallel_for(std::max(0, -crop.y), std::min(crop.side, mask.height - crop.y), [&](int y) {
       for (int x = std::max(0, -crop.x); x < std::min(crop.side, mask.width - crop.x); ++x) {
