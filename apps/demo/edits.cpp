@@ -50,7 +50,7 @@ Image share_of_part(const GBuffer& seen, int part) {
   const std::vector<int> parts = seen.part_of_pixels();
   Image share = seen.mask_image();
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (part >= 0 && parts[i] != part) share.values[i] = 0;
+    if (parts[i] != part) share.values[i] = 0;
   }
   return share;
 }

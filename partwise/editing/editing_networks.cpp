@@ -27,7 +27,7 @@ int encoded(int size) {
 
 struct MaterialModule : torch::nn::Module {
   explicit MaterialModule(const EditingNetworksSettings& settings) {
-    encoder = register_module("encoder", halving_convolutions(4, widths));
+    encoder = register_module("encoder", halving_convolutions(4, widths, Normalisation::none));
     connected_layers = register_module("connected", connected(encoded(settings.size), 192, settings.dropout));
     connected_layers->extend(*connected(192, 192, settings.dropout));
     connected_layers->push_back(torch::nn::Linear(192, dsbrdf_size));
@@ -42,7 +42,7 @@ struct LightModule : torch::nn::Module {
   static constexpr int channels = 24, rows = light_rows / 16, columns = light_columns / 16;
 
   explicit LightModule(const EditingNetworksSettings& settings) {
-    encoder = register_module("encoder", halving_convolutions(4, widths));
+    encoder = register_module("encoder", halving_convolutions(4, widths, Normalisation::none));
     connected_layers = register_module("connected", connected(encoded(settings.size), 256, settings.dropout));
     spread = register_module("spread", torch::nn::Linear(256, channels * rows * columns));
     decoder = register_module("decoder", doubling_convolution(channels, 48));

@@ -1,7 +1,7 @@
 // Linear images for the eye, and for figures of error: one exposure, gamma 2.2, clamped to 0..255.
 //
 // The exposure takes the median of the foreground's values (all colour channels together) to middle grey, 0.18. Images
-// that are compared share the exposure of the true one, so that errors of brightness count. Errors: CheckFailed for
+// that are compared share the exposure of the true one where errors of brightness are to count. Errors: CheckFailed for
 // sizes that do not fit.
 #pragma once
 

@@ -54,10 +54,12 @@ torch::nn::Sequential halving_convolution(int from, int to, int kernel) {
   return torch::nn::Sequential(convolution, torch::nn::ReLU());
 }
 
-torch::nn::Sequential halving_convolutions(int from, const std::vector<int>& channels) {
+torch::nn::Sequential halving_convolutions(int from, const std::vector<int>& channels, Normalisation normalisation) {
   torch::nn::Sequential layers;
   for (const int to : channels) {
-    layers->extend(*halving_convolution(from, to, layers->is_empty() ? 5 : 3));
+    const int kernel = layers->is_empty() ? 5 : 3;
+    layers->extend(normalisation == Normalisation::groups ? *convolution(from, to, kernel, 2)
+                                                          : *halving_convolution(from, to, kernel));
     from = to;
   }
   return layers;

@@ -36,9 +36,11 @@ void take_rows(torch::nn::Module& network, const Rows& rows);
 // Convolution, its size kept but for the stride; normalisation; rectifier.
 torch::nn::Sequential convolution(int from, int to, int kernel = 3, int stride = 1);
 // Convolution that halves the size; rectifier.
-torch::nn::Sequential halving_convolution(int from, int to, int kernel = 3);
-// Several of them, the first of 5 x 5 and from `from` channels, the others of 3 x 3.
-torch::nn::Sequential halving_convolutions(int from, const std::vector<int>& channels);
+torch::nn::Sequential halving_convolution(int from, int to, int kernel);
+// Convolutions that each halve the size, with normalisation or without, the first of 5 x 5 and from `from` channels,
+// the others of 3 x 3.
+enum class Normalisation { none, groups };
+torch::nn::Sequential halving_convolutions(int from, const std::vector<int>& channels, Normalisation normalisation);
 // Transposed convolution that doubles the size; normalisation; rectifier.
 torch::nn::Sequential doubling_convolution(int from, int to);
 // Fully connected; rectifier; dropout.

@@ -18,16 +18,6 @@ at::Tensor doubled(const at::Tensor& maps, int side) {
   return at::upsample_bilinear2d(maps, {side, side}, /*align_corners=*/false);
 }
 
-// Each halves the size.
-torch::nn::Sequential downward(int from, const std::vector<int>& channels) {
-  torch::nn::Sequential layers;
-  for (const int to : channels) {
-    layers->extend(*convolution(from, to, layers->is_empty() ? 5 : 3, 2));
-    from = to;
-  }
-  return layers;
-}
-
 }  // namespace
 
 struct NormalNetwork::Scales : torch::nn::Module {
@@ -35,12 +25,15 @@ struct NormalNetwork::Scales : torch::nn::Module {
     PARTWISE_CHECK(settings.size % largest_divisor, ==, 0);
     const int c = settings.channels, first = c / 2 / 8 * 8 + 8, wide = c + 16;  // multiples of 8
     const int deepest = settings.size / largest_divisor;
-    encoder = register_module("encoder", downward(4, {first, c, 3 * c / 2 / 8 * 8, 2 * c, 2 * c}));
+    const auto down = [](const std::vector<int>& channels) {
+      return halving_convolutions(4, channels, Normalisation::groups);
+    };
+    encoder = register_module("encoder", down({first, c, 3 * c / 2 / 8 * 8, 2 * c, 2 * c}));
     narrow = register_module("narrow", convolution(2 * c, 32, 1));
     whole = register_module("whole", connected(32 * deepest * deepest, 256, settings.dropout));
     spread = register_module("spread", torch::nn::Linear(256, handed_on * coarse_side * coarse_side));
 
-    quarter_picture = register_module("quarter_picture", downward(4, {first, c}));
+    quarter_picture = register_module("quarter_picture", down({first, c}));
     quarter = register_module("quarter", torch::nn::Sequential());
     for (int i = 0; i < 3; ++i) quarter->extend(*convolution(i == 0 ? c + handed_on : wide, wide));
     quarter->extend(*convolution(wide, handed_on));
