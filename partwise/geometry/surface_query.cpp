@@ -8,48 +8,12 @@
 #include <limits>
 
 #include "partwise/base/error.h"
+#include "partwise/geometry/closest_point.h"
 #include "partwise/geometry/ray_scene.h"
 #include "partwise/geometry/topology.h"
 
 namespace partwise {
 namespace {
-
-double squared_segment_distance(const Point& p, const Point& a, const Point& b) {
-  const Point ab = b - a;
-  const double length2 = ab.squaredNorm();
-  const double t = length2 > 0 ? std::clamp((p - a).dot(ab) / length2, 0.0, 1.0) : 0.0;
-  return (p - a - t * ab).squaredNorm();
-}
-
-constexpr double kSliver2 = 1e-24;  // squared height over longest edge: below, a triangle's normal is mostly rounding
-
-// Squared distance from p to the triangle (a, b, c) (Ericson 2004, section 5.1.5).
-double squared_distance(const Point& p, const Point& a, const Point& b, const Point& c) {
-  const Point ab = b - a, ac = c - a, ap = p - a;
-  const double longest2 = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
-  if (!(ab.cross(ac).squaredNorm() > kSliver2 * longest2 * longest2)) {
-    return std::min(
-        {squared_segment_distance(p, a, b), squared_segment_distance(p, b, c), squared_segment_distance(p, c, a)});
-  }
-  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
-  if (d1 <= 0 && d2 <= 0) return ap.squaredNorm();
-  const Point bp = p - b;
-  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
-  if (d3 >= 0 && d4 <= d3) return bp.squaredNorm();
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return (ap - d1 / (d1 - d3) * ab).squaredNorm();
-  const Point cp = p - c;
-  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
-  if (d6 >= 0 && d5 <= d6) return cp.squaredNorm();
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return (ap - d2 / (d2 - d6) * ac).squaredNorm();
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-    return (bp - (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b)).squaredNorm();
-  }
-  const double scale = 1 / (va + vb + vc);
-  return (ap - vb * scale * ab - vc * scale * ac).squaredNorm();
-}
 
 constexpr int kOpenDirections = 24;
 
@@ -126,7 +90,8 @@ double SurfaceQuery::distance(const Point& p, double at_most) const {
         Nearest& best = *static_cast<Nearest*>(args->userPtr);
         const auto face = best.scene->faces.row(args->primID);
         const Vertices& v = best.scene->vertices;
-        const double squared = squared_distance(best.p, v.row(face[0]), v.row(face[1]), v.row(face[2]));
+        const double squared =
+            offset_from_triangle(best.p, v.row(face[0]), v.row(face[1]), v.row(face[2])).squaredNorm();
         if (squared >= best.squared) return false;
         best.squared = squared;
         args->query->radius = static_cast<float>(std::sqrt(squared)) * 1.000001f + 1e-6f;

@@ -1,0 +1,38 @@
+// Obstacles made ready for motion among them: the scene that decides what is free, on the geometry as it was given, and
+// the contact samples of its obstacles' nearly convex parts, which the field learns from.
+//
+//   a city  obstacles are footprints in the plane. With a tolerance (share of a footprint's radius) DuDe's parts are
+//           obstacles of their own, so that hollows of a concave footprint have an axis; the field learns from parts of
+//           tolerance 0.1 in either case
+//   a mesh  obstacles are CoRiSE's parts of it (measure hull) to the tolerance (share of its radius), in space
+//
+// Bounds are the bounding box, wider by `margin` times its diagonal. Passages stay as they are, whatever the tolerance:
+// it only moves contact samples, by as much as hulls stand out. Errors: InputError of decomposition and scenes.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "partwise/base/progress.h"
+#include "partwise/geometry/mesh.h"
+#include "partwise/motion/city.h"
+#include "partwise/motion/contact_samples.h"
+#include "partwise/motion/scene.h"
+
+namespace partwise {
+
+struct WorldSettings {
+  std::optional<double> tolerance;  // left out: whole footprints; 0.05 for meshes
+  int contacts = 200;               // samples an obstacle
+  double margin = 0.05;
+};
+
+struct World {
+  std::unique_ptr<Scene> scene;
+  ContactSamples contacts;
+};
+
+World city_world(const City& city, const WorldSettings& settings = {}, const Progress& progress = {});
+World mesh_world(const Mesh& mesh, const WorldSettings& settings = {}, const Progress& progress = {});
+
+}  // namespace partwise
