@@ -24,14 +24,27 @@ Link link(std::span<const double> line, int from, int to, const RunLimits& limit
   return result;
 }
 
-bool joins(const Link* before, const Link& here, const Link* behind, double tolerance) {
+constexpr std::ptrdiff_t steps_each_side = 2;
+
+bool joins(std::span<const Link> links, std::ptrdiff_t k, double tolerance) {
+  const Link& here = links[static_cast<std::size_t>(k)];
   if (!here.plausible) return false;
-  const bool has_before = before != nullptr && before->plausible, has_behind = behind != nullptr && behind->plausible;
-  if (!has_before && !has_behind) return true;
-  // Beside the end of a line, of two steps that differ the smaller one is believed.
-  const double one = has_before ? before->step : 0, other = has_behind ? behind->step : 0;
+  double least = INFINITY, most = -INFINITY;
+  int sides = 0;
+  for (const int side : {-1, 1}) {
+    bool some = false;
+    for (std::ptrdiff_t i = 1; i <= steps_each_side; ++i) {
+      const std::ptrdiff_t other = k + side * i;
+      if (other < 0 || other >= std::ssize(links) || !links[static_cast<std::size_t>(other)].plausible) break;
+      const double step = links[static_cast<std::size_t>(other)].step;
+      least = std::min(least, step), most = std::max(most, step), some = true;
+    }
+    // Beside the end of a line, of two steps that differ the smaller one is believed.
+    sides += some ? 1 : 0;
+    if (!some) least = std::min(least, 0.0), most = std::max(most, 0.0);
+  }
   const double allowed = tolerance + here.noise;
-  return here.step >= std::min(one, other) - allowed && here.step <= std::max(one, other) + allowed;
+  return sides == 0 || (here.step >= least - allowed && here.step <= most + allowed);
 }
 
 }  // namespace
@@ -49,10 +62,8 @@ void surface_runs(std::span<const double> line, const RunLimits& limits, std::sp
   const auto run_of = [&](int i) -> Run& { return runs[static_cast<std::size_t>(i)]; };
   for (std::size_t k = 0; k < links.size(); ++k) {
     const Link& here = links[k];
-    const Link* before = k > 0 ? &links[k - 1] : nullptr;
-    const Link* behind = k + 1 < links.size() ? &links[k + 1] : nullptr;
-    const double value = line[static_cast<std::size_t>(here.from)];
-    if (joins(before, here, behind, limits.tolerance * value)) run_of(here.to).first = run_of(here.from).first;
+    const double tolerance = limits.tolerance * line[static_cast<std::size_t>(here.from)];
+    if (joins(links, static_cast<std::ptrdiff_t>(k), tolerance)) run_of(here.to).first = run_of(here.from).first;
   }
   for (auto each = links.rbegin(); each != links.rend(); ++each) {
     if (run_of(each->to).first != each->to) run_of(each->from).last = run_of(each->to).last;

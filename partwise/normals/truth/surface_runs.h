@@ -1,8 +1,9 @@
 // Which pixels of a row, and which of a column, lie on one surface without a step between them. Internal.
 //
-// A line of pixels falls into runs. Two neighbours of a run differ, a pixel apart, by a step of inverse depth between
-// the steps before and behind them, give or take `tolerance`: on a plane all steps are equal, at a crease they pass
-// from one to the other, and across the border of two surfaces they leap. None is beyond `steepest`.
+// A line of pixels falls into runs. Two neighbours of a run differ, a pixel apart, by a step of inverse depth that lies
+// among the two steps before and the two behind, give or take `tolerance`: on a plane all steps are equal, at a crease
+// they pass from one to the other, and across the border of two surfaces they leap. Two, for sensors that repeat every
+// row. None is beyond `steepest`.
 #pragma once
 
 #include <span>

@@ -44,6 +44,11 @@ TEST(SurfaceRuns, StepsPartThemHoweverSlanted) {
   EXPECT_EQ(runs_of({1.0, 1.0, 1.1, 1.1, 1.1}, {0, 0.2, 0.3, 2}), "aaaaa");  // within what is tolerated
 }
 
+TEST(SurfaceRuns, RowsThatAreRepeatedAreNoSteps) {
+  EXPECT_EQ(runs_of({1.0, 1.0, 1.1, 1.1, 1.2, 1.2, 1.3, 1.3}, limits), "aaaaaaaa");
+  EXPECT_EQ(runs_of({1.0, 1.0, 1.1, 1.1, 1.2, 1.2, 1.6, 1.6, 1.7, 1.7, 1.8, 1.8}, limits), "aaaaaabbbbbb");
+}
+
 TEST(SurfaceRuns, BesideAnEndTheSmallerStepIsBelieved) {
   EXPECT_EQ(runs_of({1.0, 1.1, 1.1, 1.1}, limits), "abbb");
   EXPECT_EQ(runs_of({1.0, 1.0, 1.1, 1.1}, limits), "aabb");
