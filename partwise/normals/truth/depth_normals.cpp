@@ -52,14 +52,14 @@ struct Fit {
 class PlaneFits {
  public:
   PlaneFits(const Image& depth, const PinholeCamera& camera, const DepthNormalSettings& settings)
-      : width_(depth.width), height_(depth.height), camera_(camera), settings_(settings) {
-    inverse_.reserve(depth.values.size());
-    for (const float z : depth.values) inverse_.push_back(std::isfinite(z) && z > 0 ? 1 / static_cast<double>(z) : 0);
-    rows_.resize(inverse_.size());
-    columns_.resize(inverse_.size());
+      : width_(depth.width),
+        height_(depth.height),
+        camera_(camera),
+        settings_(settings),
+        inverse_(inverse_depths(depth)),
+        runs_(picture_runs(inverse_, width_, height_, limits(camera.focal_x), limits(camera.focal_y))) {
     sums_.resize(inverse_.size() + static_cast<std::size_t>(height_));
-    tbb::parallel_for(0, height_, [&](int y) { prepare_row(y); });
-    tbb::parallel_for(0, width_, [&](int x) { prepare_column(x); });
+    tbb::parallel_for(0, height_, [&](int y) { add_up_row(y); });
   }
 
   // The normal of the first window, from the smallest, that is good enough.
@@ -81,37 +81,28 @@ class PlaneFits {
   std::size_t sum_at(int x, int y) const { return at(x, y) + static_cast<std::size_t>(y); }
 
   RunLimits limits(double focal) const {
-    return {differences_that_mean_nothing * settings_.noise, 1 / focal, std::tan(settings_.steepest * radians) / focal,
-            settings_.widest_gap};
+    RunLimits limits = run_limits(focal, settings_.steepest);
+    limits.noise = differences_that_mean_nothing * settings_.noise;
+    limits.widest_gap = settings_.widest_gap;
+    return limits;
   }
 
-  void prepare_row(int y) {
-    const auto width = static_cast<std::size_t>(width_);
-    const std::span<const double> line(inverse_.data() + at(0, y), width);
-    surface_runs(line, limits(camera_.focal_x), {rows_.data() + at(0, y), width});
+  void add_up_row(int y) {
     for (int x = 0; x < width_; ++x) {
       RowSums sum = sums_[sum_at(x, y)];
-      if (const double w = line[static_cast<std::size_t>(x)]; w != 0) {
+      if (const double w = inverse_[at(x, y)]; w != 0) {
         sum.n += 1, sum.x += x, sum.xx += static_cast<double>(x) * x, sum.w += w, sum.xw += x * w;
       }
       sums_[sum_at(x + 1, y)] = sum;
     }
   }
 
-  void prepare_column(int x) {
-    std::vector<double> line(static_cast<std::size_t>(height_));
-    std::vector<Run> runs(line.size());
-    for (int y = 0; y < height_; ++y) line[static_cast<std::size_t>(y)] = inverse_[at(x, y)];
-    surface_runs(line, limits(camera_.focal_y), runs);
-    for (int y = 0; y < height_; ++y) columns_[at(x, y)] = runs[static_cast<std::size_t>(y)];
-  }
-
   WindowSums window(int x, int y, int radius) const {
     WindowSums sums;
-    const Run column = columns_[at(x, y)];
+    const Run column = runs_.columns[at(x, y)];
     for (int row = std::max(column.first, y - radius); row <= std::min(column.last, y + radius); ++row) {
       if (inverse_[at(x, row)] == 0) continue;
-      const Run run = rows_[at(x, row)];
+      const Run run = runs_.rows[at(x, row)];
       const int first = std::max(run.first, x - radius), last = std::min(run.last, x + radius);
       sums.add(sums_[sum_at(first, row)], sums_[sum_at(last + 1, row)], x, row - y);
     }
@@ -142,7 +133,7 @@ class PlaneFits {
   PinholeCamera camera_;
   DepthNormalSettings settings_;
   std::vector<double> inverse_;  // 1/m, 0 where missing
-  std::vector<Run> rows_, columns_;
+  PictureRuns runs_;
   std::vector<RowSums> sums_;
 };
 

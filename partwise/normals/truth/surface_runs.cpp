@@ -1,7 +1,11 @@
 #include "partwise/normals/truth/surface_runs.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <numbers>
 
 namespace partwise {
 namespace {
@@ -68,6 +72,37 @@ void surface_runs(std::span<const double> line, const RunLimits& limits, std::sp
   for (auto each = links.rbegin(); each != links.rend(); ++each) {
     if (run_of(each->to).first != each->to) run_of(each->from).last = run_of(each->to).last;
   }
+}
+
+std::vector<double> inverse_depths(const Image& depth) {
+  std::vector<double> inverse;
+  inverse.reserve(depth.values.size());
+  for (const float z : depth.values) inverse.push_back(std::isfinite(z) && z > 0 ? 1 / static_cast<double>(z) : 0);
+  return inverse;
+}
+
+PictureRuns picture_runs(std::span<const double> inverse_depth, int width, int height, const RunLimits& in_rows,
+                         const RunLimits& in_columns) {
+  const auto wide = static_cast<std::size_t>(width), high = static_cast<std::size_t>(height);
+  PictureRuns runs{std::vector<Run>(inverse_depth.size()), std::vector<Run>(inverse_depth.size())};
+  tbb::parallel_for(std::size_t{0}, high, [&](std::size_t y) {
+    surface_runs(inverse_depth.subspan(y * wide, wide), in_rows, std::span(runs.rows).subspan(y * wide, wide));
+  });
+  tbb::parallel_for(std::size_t{0}, wide, [&](std::size_t x) {
+    std::vector<double> line(high);
+    std::vector<Run> found(high);
+    for (std::size_t y = 0; y < high; ++y) line[y] = inverse_depth[y * wide + x];
+    surface_runs(line, in_columns, found);
+    for (std::size_t y = 0; y < high; ++y) runs.columns[y * wide + x] = found[y];
+  });
+  return runs;
+}
+
+RunLimits run_limits(double focal, double steepest_degrees) {
+  RunLimits limits;
+  limits.tolerance = 1 / focal;
+  limits.steepest = std::tan(steepest_degrees * std::numbers::pi / 180) / focal;
+  return limits;
 }
 
 }  // namespace partwise

@@ -9,6 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "partwise/imaging/image.h"
+
 namespace partwise {
 
 // All of inverse depth, 1/m.
@@ -23,7 +25,21 @@ struct Run {
   int first = 0, last = -1;  // pixels of the line, which are in the run themselves
 };
 
-// Of each pixel its run; empty where `inverse_depth` is 0, that is missing.
+// 1/m, 0 where the depth is missing: 0 or less or not finite.
+std::vector<double> inverse_depths(const Image& depth);
+
+// Of each pixel its run; empty where `inverse_depth` is 0.
 void surface_runs(std::span<const double> inverse_depth, const RunLimits& limits, std::span<Run> runs);
+
+// Of each pixel the run in its row, counted in columns, and that in its column, counted in rows.
+struct PictureRuns {
+  std::vector<Run> rows, columns;
+};
+PictureRuns picture_runs(std::span<const double> inverse_depth, int width, int height, const RunLimits& in_rows,
+                         const RunLimits& in_columns);
+
+// Steps that a plane makes, slanted by at most this angle against the viewing direction; relief as high as a pixel is
+// wide is tolerated.
+RunLimits run_limits(double focal, double steepest_degrees);
 
 }  // namespace partwise
