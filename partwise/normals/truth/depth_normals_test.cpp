@@ -209,6 +209,25 @@ TEST(DepthNormals, AgreeWithThePlaneNearestToThePoints) {
   EXPECT_LT(std::ranges::max(angles), 0.6);
 }
 
+TEST(DepthNormals, BearRoundedDepthBetterThanThePlaneNearestToThePoints) {
+  const PinholeCamera camera{525, 525, 79.5, 59.5};
+  const PlaneDepth plane{test::slanted(40, 70), 3.5};
+  const Image depth = depth_picture(camera, 160, 120, [&](const Vector3d& ray) {
+    return 1 / (kinect_step * std::round(1 / plane(ray) / kinect_step));
+  });
+  DepthNormalSettings settings;
+  settings.least_radius = settings.most_radius = 5;
+  const Image normals = normals_from_depth(depth, camera, settings);
+  std::vector<double> ours, theirs;
+  for (int y = 5; y < 115; ++y) {
+    for (int x = 5; x < 155; ++x) {
+      ours.push_back(degrees_between(normal_at(normals, x, y), plane.normal));
+      theirs.push_back(degrees_between(nearest_plane(depth, camera, x, y, 5), plane.normal));
+    }
+  }
+  EXPECT_LT(median(ours), 0.7 * median(theirs));
+}
+
 TEST(DepthNormals, AreUnknownWhereTheDepthIs) {
   Image depth = small_picture(PlaneDepth{test::slanted(20, 10), 1});
   depth.pixel(10, 10)[0] = 0;
