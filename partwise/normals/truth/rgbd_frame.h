@@ -2,7 +2,7 @@
 //
 //   NYU Depth v2, raw (Silberman, Hoiem, Kohli, Fergus 2012): colour .ppm and depth .pgm of 16 bits. The depth's bytes
 //     stand low byte first, against the format; a code d is 351.3 / (1092.5 - d) metres, up to 10; what is beyond is
-//     missing. Colour and depth are of two cameras, not registered and with their lenses' distortion.
+//     missing. Colour and depth are of two cameras, not registered (registration.h).
 //   SUN RGB-D (Song, Lichtenberg, Xiao 2015): PNG of 16 bits, millimetres turned left by 3 bits; intrinsics.txt.
 //   TUM RGB-D (Sturm, Engelhard, Endres, Burgard, Cremers 2012): PNG of 16 bits, 5000 a metre.
 //   Redwood (Choi, Zhou, Miller, Koltun 2016; Choi, Zhou, Koltun 2015): PNG of 16 bits, millimetres.
