@@ -1,13 +1,16 @@
 // Normals of measured depth beside those of planes that are fitted plainly: for a grid of pixels, the points of a
 // square window whose depth differs from the pixel's by at most 5 % (Silberman and others 2012), and the plane that
 // explains their inverse depths best ("inverse"), or that is nearest to them in space ("space"). All have the same
-// radius. One JSON line a frame and radius: angles between normals_from_depth and these in degrees, the share of the
-// pixels with a depth that have a normal, and the time that normals_from_depth takes. Radius 0: the settings' own,
-// nothing beside them.
-#include <fmt/format.h>
-
+// radius.
+//
+//   normals_check FOLDER... [--radii 0 7 14] [--pictures DIR]    angles between normals_from_depth and these
+//   normals_check --planes [--radii 0 5 10]    angles of all to the truth, of slanted planes as a sensor sees them
+//
+// One JSON line a frame and radius, angles in degrees, with the share of the pixels with a depth that have a normal and
+// the time that normals_from_depth takes. Radius 0: the settings' own, and no planes beside it.
 #include <CLI/CLI.hpp>
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <Eigen/QR>
 
 #include <algorithm>
@@ -17,11 +20,13 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "partwise/base/error.h"
 #include "partwise/normals/truth/depth_normals.h"
+#include "partwise/normals/truth/depth_sensor.h"
 #include "partwise/normals/truth/normal_files.h"
 #include "partwise/normals/truth/rgbd_folder.h"
 
@@ -69,7 +74,7 @@ Vector3d plane_of_inverse_depth(const std::vector<Vector3d>& points) {
 struct Angles {
   std::vector<double> degrees;
   void add(const Vector3d& a, const Vector3d& b) {
-    degrees.push_back(std::acos(std::clamp(a.dot(b), -1.0, 1.0)) * 180 / std::numbers::pi);
+    degrees.push_back(std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi);
   }
   nlohmann::json quantiles() {
     std::ranges::sort(degrees);
@@ -80,32 +85,74 @@ struct Angles {
   }
 };
 
-nlohmann::json compare(const RgbdFrame& frame, int radius) {
+// Of all to the truth where it is known, else of the plain planes to ours.
+nlohmann::json compare(const Image& depth, const PinholeCamera& camera, int radius,
+                       const std::optional<Vector3d>& truth) {
   DepthNormalSettings settings;
   if (radius > 0) settings.least_radius = settings.most_radius = radius;
   const auto start = std::chrono::steady_clock::now();
-  const Image normals = normals_from_depth(frame.depth, frame.camera, settings);
+  const Image normals = normals_from_depth(depth, camera, settings);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   const Mask known = known_normals(normals);
-  const auto depths = std::ranges::count_if(frame.depth.values, [](float z) { return z > 0; });
+  const auto depths = std::ranges::count_if(depth.values, [](float z) { return z > 0; });
   const auto found = std::ranges::count(known.values, 1.0f);
   nlohmann::json line{{"radius", radius},
                       {"known", static_cast<double>(found) / static_cast<double>(depths)},
                       {"seconds", seconds.count()}};
-  if (radius == 0) return line;
-  Angles inverse, space;
+  Angles own, inverse, space;
   for (int y = 0; y < normals.height; y += grid) {
     for (int x = 0; x < normals.width; x += grid) {
-      const std::vector<Vector3d> points = points_about(frame.depth, frame.camera, x, y, radius);
-      if (known.pixel(x, y)[0] == 0 || static_cast<int>(points.size()) < settings.least_pixels) continue;
+      const std::vector<Vector3d> points = points_about(depth, camera, x, y, radius);
+      if (known.pixel(x, y)[0] == 0 || (radius > 0 && std::ssize(points) < settings.least_pixels)) continue;
       const Vector3d normal = Eigen::Map<const Eigen::Vector3f>(normals.pixel(x, y)).cast<double>();
-      inverse.add(normal, plane_of_inverse_depth(points));
-      space.add(normal, plane_in_space(points));
+      if (truth) own.add(normal, *truth);
+      if (radius == 0) continue;
+      inverse.add(truth.value_or(normal), plane_of_inverse_depth(points));
+      space.add(truth.value_or(normal), plane_in_space(points));
     }
   }
-  line["inverse"] = inverse.quantiles();
-  line["space"] = space.quantiles();
+  if (truth) line["own"] = own.quantiles();
+  if (radius > 0) line["inverse"] = inverse.quantiles(), line["space"] = space.quantiles();
   return line;
+}
+
+void compare_frames(const std::string& folder, const std::vector<int>& radii, const std::filesystem::path& pictures) {
+  for (const RgbdFiles& files : find_rgbd_frames(folder)) {
+    const RgbdFrame frame = read_rgbd_frame(files);
+    if (!pictures.empty()) {
+      write_normals(pictures / files.depth.filename().replace_extension(".png"),
+                    normals_from_depth(frame.depth, frame.camera), NormalBits::eight);
+    }
+    for (const int radius : radii) {
+      nlohmann::json line = compare(frame.depth, frame.camera, radius, {});
+      line["depth"] = files.depth.filename().string();
+      std::cout << line.dump() << std::endl;
+    }
+  }
+}
+
+void compare_planes(const std::vector<int>& radii) {
+  constexpr PinholeCamera camera{525, 525, 319.5, 239.5};
+  for (const double metres : {1.0, 2.0, 3.5}) {
+    for (const double slant : {0.0, 40.0, 65.0}) {
+      const double radians = slant * std::numbers::pi / 180;
+      const Vector3d normal(std::sin(radians) / 2, std::sin(radians) * std::sqrt(0.75), std::cos(radians));
+      Image depth(640, 480, 1), normals(640, 480, 3);
+      for (int y = 0; y < depth.height; ++y) {
+        for (int x = 0; x < depth.width; ++x) {
+          const double z = -metres * normal.z() / normal.dot(camera.ray(x, y));
+          depth.pixel(x, y)[0] = z > 0 ? static_cast<float>(z) : 0;
+          Eigen::Map<Eigen::Vector3f>(normals.pixel(x, y)) = normal.cast<float>();
+        }
+      }
+      const Image sensed = sensed_depth(depth, normals, camera, {}, 1);
+      for (const int radius : radii) {
+        nlohmann::json line = compare(sensed, camera, radius, normal);
+        line["metres"] = metres, line["slant"] = slant;
+        std::cout << line.dump() << std::endl;
+      }
+    }
+  }
 }
 
 }  // namespace
@@ -114,27 +161,17 @@ int main(int argc, char** argv) {
   CLI::App app("Normals of measured depth beside planes that are fitted plainly");
   std::vector<std::string> folders;
   std::vector<int> radii{0, 5, 7, 10, 14};
-  app.add_option("FOLDER", folders, "Folders of frames")->required();
-  app.add_option("--radii", radii, "Of all, pixels; 0: the settings' own");
   std::filesystem::path pictures;
-  app.add_option("--pictures", pictures, "Write the normals there");
+  bool planes = false;
+  app.add_option("FOLDER", folders, "Folders of frames");
+  app.add_flag("--planes", planes, "Planes as a sensor sees them");
+  app.add_option("--radii", radii, "Of all, pixels; 0: the settings' own");
+  app.add_option("--pictures", pictures, "Write the frames' normals there");
   CLI11_PARSE(app, argc, argv);
   try {
-    for (const std::string& folder : folders) {
-      for (const RgbdFiles& files : find_rgbd_frames(folder)) {
-        const RgbdFrame frame = read_rgbd_frame(files);
-        for (const int radius : radii) {
-          nlohmann::json line = compare(frame, radius);
-          if (!pictures.empty() && radius == 0) {
-            write_normals(pictures / files.depth.filename().replace_extension(".png"),
-                          normals_from_depth(frame.depth, frame.camera), NormalBits::eight);
-          }
-          line["depth"] = files.depth.filename().string();
-          std::cout << line.dump() << std::endl;
-        }
-      }
-    }
-  } catch (const InputError& error) {
+    for (const std::string& folder : folders) compare_frames(folder, radii, pictures);
+    if (planes) compare_planes(radii);
+  } catch (const partwise::InputError& error) {
     std::cerr << error.what() << '\n';
     return 1;
   }
