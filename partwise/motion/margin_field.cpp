@@ -120,12 +120,10 @@ int MarginField::obstacles() const { return parts_->samples.count; }
 const ContactSamples& MarginField::samples() const { return parts_->samples; }
 
 std::array<int, 2> MarginField::nearest_two(const MotionVector& x) const {
-  constexpr double level = 1e-300;  // a gradient that has vanished
   std::array<int, 2> best = {-1, -1};
   std::array<double, 2> scores = {};
   parts_->reach->for_each_around(x, [&](int obstacle) {
-    const FieldValue g = parts_->against_others[static_cast<std::size_t>(obstacle)].at(x);
-    const double score = g.value / std::max(g.gradient.norm(), level);
+    const double score = parts_->against_others[static_cast<std::size_t>(obstacle)].value(x);
     if (best[0] < 0 || score > scores[0]) {
       best = {obstacle, best[0]};
       scores = {score, scores[0]};

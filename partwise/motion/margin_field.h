@@ -12,9 +12,6 @@
 //   one against one         the samples of the two, a kernel `gap_width` gaps wide. Neighbours are trained at once,
 //                           others when they are first asked for
 //
-// Scores of classifiers whose kernels differ do not compare, nor does what is left of them far from all samples. So
-// "nearest" is by g / |g'|, the distance to g = 0 to first order: the dissertation compares g.
-//
 // All is const after construction (what is trained late is trained once, whoever asks first) and the same for any
 // number of threads. Errors: InputError for fewer than two obstacles.
 #pragma once
