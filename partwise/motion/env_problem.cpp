@@ -6,6 +6,7 @@
 #include <array>
 #include <numbers>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 #include "partwise/base/error.h"
@@ -125,10 +126,11 @@ std::int64_t read_multibody_count(TextScanner& scanner) {
 std::filesystem::path file_beside(const std::filesystem::path& path, const std::string& ending) {
   std::filesystem::path same = path;
   same.replace_extension(ending);
-  if (std::filesystem::exists(same)) return same;
+  std::error_code trouble;
+  if (std::filesystem::exists(same, trouble)) return same;
   std::filesystem::path only;
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder, trouble)) {
     if (entry.path().extension() != ending) continue;
     if (!only.empty()) return {};
     only = path.parent_path() / entry.path().filename();

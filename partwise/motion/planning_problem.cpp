@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <numbers>
+#include <system_error>
 
 #include "partwise/base/error.h"
 #include "partwise/geometry/mesh_io.h"
@@ -88,7 +89,8 @@ Mesh read_named_mesh(const std::filesystem::path& folder, const std::string& nam
     throw InputError(place, fmt::format("{} is a COLLADA mesh, which is not read", shown(name)),
                      "convert it to .obj, .stl or .glb and name that");
   }
-  if (!std::filesystem::exists(path)) {
+  std::error_code trouble;  // a name that is too long, say
+  if (!std::filesystem::exists(path, trouble)) {
     throw InputError(place, fmt::format("names the mesh {}, which does not exist", shown(name)),
                      "put it there, or correct the name");
   }
