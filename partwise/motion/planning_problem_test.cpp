@@ -161,12 +161,12 @@ TEST_F(PlanningProblemFiles, QueriesAreInUnitsOfPiAndGoOnFromGoalToGoal) {
   const std::string body = "Connections\n0\nPassive\nbox.obj 50 0 0 0 0 0\n";
   put("a.env",
       "Boundary Box [-90:90 ; -90:90 ; -90:90]\nMultibodies\n2\nActive\n1\nbox.obj Volumetric Rotational\n" + body);
-  put("a.query", "0 1 2 3 0.5 0.5 0.5\n\n0 4 5 6 0.5 0 0.5 \n# home\n0 0 0 0 0 0 2\n");
+  put("a.query", "0 1 2 3 0.5 0.5 0.5\n\n0 4 5 6 0.5 0 1 \n# home\n0 0 0 0 0 0 2\n");
   const PlanningProblem solid = read_planning_problem(path("a.env"));
   ASSERT_EQ(solid.queries.size(), 2u);
-  Matrix3d all, two;  // as in the test above
+  Matrix3d all, two;  // as in the test above; (x, -z, y), then half a turn about z to (-x, z, y)
   all << 0, 0, 1, 0, 1, 0, -1, 0, 0;
-  two << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+  two << -1, 0, 0, 0, 0, 1, 0, 1, 0;
   expect_pose(solid, solid.queries[0].start, all, {1, 2, 3});
   expect_pose(solid, solid.queries[0].goal, two, {4, 5, 6});
   expect_near(solid.queries[1].start, solid.queries[0].goal);
