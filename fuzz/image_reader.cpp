@@ -10,6 +10,7 @@
 #include "partwise/imaging/exr.h"
 #include "partwise/imaging/hdr.h"
 #include "partwise/imaging/jpeg.h"
+#include "partwise/imaging/netpbm.h"
 
 namespace {
 
@@ -51,6 +52,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   expect_message_or([&] {
     const Image image = format == "exr"   ? decode_exr("fuzz", bytes)
                         : format == "hdr" ? decode_hdr("fuzz", bytes)
+                        : format == "pgm" ? decode_plain_netpbm("fuzz", bytes)
                                           : decode_plain_jpeg("fuzz", bytes);
     const auto pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
     if (pixels == 0 || image.values.size() != pixels * static_cast<std::size_t>(image.channels))

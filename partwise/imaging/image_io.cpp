@@ -7,6 +7,7 @@
 #include "partwise/imaging/exr.h"
 #include "partwise/imaging/hdr.h"
 #include "partwise/imaging/jpeg.h"
+#include "partwise/imaging/netpbm.h"
 #include "partwise/imaging/png.h"
 
 namespace partwise {
@@ -18,8 +19,9 @@ Image read_image(const std::filesystem::path& path) {
   if (ending == ".hdr" || ending == ".pic") return read_hdr(path);
   if (ending == ".png") return read_png(path);
   if (ending == ".jpg" || ending == ".jpeg") return read_jpeg(path);
+  if (ending == ".pgm" || ending == ".ppm") return read_netpbm(path);
   throw InputError(path.string(), "has the ending of no image format that is read",
-                   "give .exr, .hdr, .pic, .png or .jpg");
+                   "give .exr, .hdr, .pic, .png, .jpg, .pgm or .ppm");
 }
 
 }  // namespace partwise

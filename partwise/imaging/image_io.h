@@ -1,5 +1,5 @@
-// Images by the ending of the file, in any case of letters: .exr, .hdr (.pic), .png, .jpg (.jpeg). See exr.h, hdr.h,
-// png.h and jpeg.h.
+// Images by the ending of the file, in any case of letters: .exr, .hdr (.pic), .png, .jpg (.jpeg), .pgm, .ppm. See
+// exr.h, hdr.h, png.h, jpeg.h and netpbm.h.
 //
 // Errors: InputError for another ending, and those of the formats.
 #pragma once

@@ -36,7 +36,7 @@ Maprm::Maprm(const Scene& scene, const MaprmSettings& settings) : scene_(scene),
   const bool flat = space.kind() == SpaceKind::plane || space.kind() == SpaceKind::se2;
   const Eigen::Vector3d size = space.bounds().sizes();
   const double diagonal = flat ? size.head<2>().norm() : size.norm();
-  if (settings_.resolution <= 0) settings_.resolution = diagonal / 400;
+  if (settings_.resolution <= 0) settings_.resolution = diagonal / 2000;
 }
 
 Maprm::Witness Maprm::first_change(const Configuration& q, int rays, bool inside, Retraction& walk, Draw& draw) const {

@@ -20,7 +20,7 @@ namespace partwise {
 struct MaprmSettings {
   bool exact = false;
   int clearance_rays = 10, penetration_rays = 20;
-  double resolution = 0;  // length of a tick along tangents; 0: the bounds' diagonal over 400
+  double resolution = 0;  // length of a tick along tangents; 0: the bounds' diagonal over 2000
   int most_ticks = 100;
   double precision = 0.005;
 };

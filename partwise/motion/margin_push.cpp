@@ -42,8 +42,22 @@ void MarginPush::by_score(Walk& walk) const {
   }
 }
 
+// The two nearest of all obstacles instead of those that the field names. False where the robot is not free, or where
+// they are the same again.
+bool MarginPush::look_around(Walk& walk, const AxisState& state) const {
+  const std::array<int, 2> before = walk.pair;
+  if (!state.free || state.pair[1].obstacle < 0) return false;
+  walk.on({state.pair[0].obstacle, state.pair[1].obstacle});
+  return walk.pair != before;
+}
+
 void MarginPush::by_clearance(Walk& walk) const {
   const ConfigurationSpace& space = scene_.space();
+  const auto state_at = [&](const Configuration& q) {
+    ++walk.result.distance_queries;
+    ++walk.result.collision_checks;
+    return axis_state(scene_, q);
+  };
   bool known = false;  // the pair is that of all distances, not of the field
   for (; walk.result.steps < settings_.most_steps; ++walk.result.steps) {
     Configuration& q = walk.result.q;
@@ -52,10 +66,10 @@ void MarginPush::by_clearance(Walk& walk) const {
     const Near a = scene_.distance(q, walk.pair[0]), b = scene_.distance(q, walk.pair[1]);
     walk.result.distance_queries += 2;
     const double difference = a.distance - b.distance;
-    if (std::abs(difference) <= settings_.epsilon * std::min(a.distance, b.distance)) {
-      const AxisState state = axis_state(scene_, q);
-      ++walk.result.distance_queries;
-      ++walk.result.collision_checks;
+    const Tangent apart = a.gradient - b.gradient;
+    const bool told_apart = apart.norm() >= least_separation;
+    if (!told_apart || std::abs(difference) <= settings_.epsilon * std::min(a.distance, b.distance)) {
+      const AxisState state = state_at(q);
       if (state.on_axis(settings_.epsilon)) {
         // What is known by now gives one more step, straight across the axis, whose error is of second order.
         const Tangent across = state.pair[1].gradient - state.pair[0].gradient;
@@ -63,12 +77,10 @@ void MarginPush::by_clearance(Walk& walk) const {
         walk.result.done = true;
         return;
       }
-      if (!state.free || state.pair[1].obstacle < 0) return;
-      walk.on({state.pair[0].obstacle, state.pair[1].obstacle});
+      if (!look_around(walk, state)) return;
       known = true;
       continue;
     }
-    const Tangent apart = a.gradient - b.gradient;
     const FieldValue f = field_.between(walk.pair[0], walk.pair[1]).at(x);
     Tangent along = space.pulled_back(q, f.gradient);
     const double steepness = along.norm();
@@ -76,7 +88,6 @@ void MarginPush::by_clearance(Walk& walk) const {
     double slope = along.dot(apart);  // f grows towards the first obstacle
     if (std::abs(slope) < 0.5 * apart.norm()) {
       slope = apart.norm();
-      if (slope < least_separation) return;
       along = apart / slope;
     }
     const double reach = std::max(a.distance, b.distance);

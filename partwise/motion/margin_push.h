@@ -38,6 +38,7 @@ class MarginPush final : public Retractor {
   struct Walk;
   void by_score(Walk& walk) const;
   void by_clearance(Walk& walk) const;
+  bool look_around(Walk& walk, const AxisState& state) const;
 
   const Scene& scene_;
   const MarginField& field_;

@@ -3,7 +3,7 @@
 namespace partwise {
 
 AxisState axis_state(const Scene& scene, const Configuration& q) {
-  constexpr int looked_at = 4;
+  constexpr int looked_at = 6;
   AxisState state;
   state.free = scene.free(q);
   for (const Near& each : scene.nearest(q, looked_at)) {

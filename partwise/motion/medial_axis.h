@@ -11,8 +11,8 @@
 
 namespace partwise {
 
-// Directions in which the distances to two obstacles grow are told apart from here on: 20 degrees.
-inline constexpr double least_separation = 0.347296;  // 2 sin(10 degrees)
+// Directions in which the distances to two obstacles grow are told apart from here on: 10 degrees.
+inline constexpr double least_separation = 0.174311;  // 2 sin(5 degrees)
 
 // On the axis: the two smallest distances differ by at most this share of the smaller.
 inline constexpr double axis_share = 0.02;

@@ -1,7 +1,6 @@
 #include "partwise/appearance/rendering/channel_files.h"
 
 #include "partwise/base/error.h"
-#include "partwise/imaging/png.h"
 #include "partwise/imaging/tone_mapping.h"
 
 namespace partwise {
@@ -16,10 +15,13 @@ std::string encode_tone_mapped(const Image& linear, const Image& mask) {
   return encode_tone_mapped(linear, exposure_by_median(linear, mask));
 }
 
-std::string encode_normals(const GBuffer& seen) {
-  Image normals = seen.normal_image();
-  for (float& value : normals.values) value = (value + 1) / 2;
-  return encode_png(normals, PngCodes::plain16);
+std::string encode_normals(const GBuffer& seen) { return encode_normals(seen.normal_image()); }
+
+std::string encode_normals(const Image& normals, PngCodes codes) {
+  PARTWISE_CHECK(normals.channels, ==, 3);
+  Image coded = normals;
+  for (float& value : coded.values) value = (value + 1) / 2;
+  return encode_png(coded, codes);
 }
 
 std::string encode_mask(const GBuffer& seen) { return encode_png(seen.mask_image(), PngCodes::plain8); }

@@ -1,0 +1,174 @@
+// partwise roadmap: samples of the medial axis among obstacles, and the edges between them, with files.
+
+#include "partwise/motion/roadmap.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "mesh_errors.h"
+#include "options.h"
+#include "partwise/base/atomic_file.h"
+#include "partwise/geometry/mesh_io.h"
+#include "partwise/motion/maprm.h"
+#include "partwise/motion/margin_push.h"
+#include "partwise/motion/world.h"
+#include "roadmap_pictures.h"
+#include "verbs.h"
+
+namespace partwise::cli {
+namespace {
+
+enum class Method { svma, maprm, maprm_exact };
+
+const Choices<Method> methods = {
+    {"svma", Method::svma}, {"maprm", Method::maprm}, {"maprm-exact", Method::maprm_exact}};
+const Choices<StepSize> steps = {
+    {"svm", StepSize::score}, {"clearance", StepSize::clearance}, {"combined", StepSize::combined}};
+
+struct Options {
+  std::string scene, samples_out, svg, glb;
+  int limit = 0;
+  double tolerance = 0;  // 0: the usual one
+  Method method = Method::svma;
+  MarginPushSettings push;
+  AxisSamplesSettings sampling;
+  RoadmapSettings connecting;
+};
+
+struct Obstacles {
+  std::optional<City> city;
+  std::optional<Mesh> mesh;
+};
+
+bool is_city(const std::string& file) {
+  const std::string ending = lower_ending(file);
+  return ending == ".geojson" || ending == ".json";
+}
+
+void announce_outputs(const Options& options, Outputs& outputs) {
+  outputs.add_input("SCENE", options.scene);
+  if (!options.samples_out.empty()) outputs.add("--samples-out", options.samples_out, {".txt"});
+  if (!options.svg.empty()) outputs.add("--svg", options.svg, {".svg"});
+  if (!options.glb.empty()) outputs.add("--glb", options.glb, {".glb"});
+  if (is_city(options.scene) ? !options.glb.empty() : !options.svg.empty())
+    throw UsageError(is_city(options.scene) ? "--glb: a city is of the plane; draw it with --svg"
+                                            : "--svg: a mesh is of space; show it with --glb");
+}
+
+Obstacles read_obstacles(const Options& options) {
+  if (is_city(options.scene)) return {read_city(options.scene, options.limit), {}};
+  if (options.limit > 0) throw UsageError("--limit: keeps footprints of a city (.geojson); a mesh has none");
+  return {{}, read_mesh(options.scene)};
+}
+
+World made_ready(const Obstacles& obstacles, const Options& options, const Progress& progress) {
+  WorldSettings settings;
+  if (options.tolerance > 0) settings.tolerance = options.tolerance;
+  if (obstacles.city) return city_world(*obstacles.city, settings, progress);
+  return naming_mesh(options.scene, [&] { return mesh_world(*obstacles.mesh, settings, progress); });
+}
+
+std::string as_text(const AxisSamples& found) {
+  std::string text;
+  for (const AxisSample& each : found.samples) {
+    for (const double coordinate : each.q) text += fmt::format("{} ", coordinate);
+    text += fmt::format("{} {}\n", each.state.pair[0].distance, each.state.pair[1].distance);
+  }
+  return text;
+}
+
+void roadmap_of_file(const Options& options, Run& run) {
+  announce_outputs(options, run.outputs);
+  const Obstacles obstacles = run.stage("read", [&] { return read_obstacles(options); });
+  const World world = run.stage("parts", [&] { return made_ready(obstacles, options, run.progress); });
+  std::optional<MarginField> field;
+  std::unique_ptr<Retractor> retract;
+  if (options.method == Method::svma) {
+    run.stage("train", [&] {
+      field.emplace(world.scene->space(), world.contacts, MarginFieldSettings{.seed = run.seed}, run.progress);
+    });
+    retract = std::make_unique<MarginPush>(*world.scene, *field, options.push);
+  } else {
+    retract = std::make_unique<Maprm>(*world.scene, MaprmSettings{.exact = options.method == Method::maprm_exact});
+  }
+  AxisSamplesSettings sampling = options.sampling;
+  sampling.seed = run.seed;
+  sampling.only_on_axis = options.method == Method::svma;
+  const AxisSamples found =
+      run.stage("sample", [&] { return axis_samples(*world.scene, *retract, sampling, run.progress); });
+  if (found.samples.empty())
+    throw InputError(options.scene, fmt::format("no sample of {} drawn arrived on the axis", found.drawn),
+                     "leave room between the obstacles, or raise --epsilon");
+  RoadmapSettings connecting = options.connecting;
+  connecting.seed = run.seed;
+  const Roadmap roadmap =
+      run.stage("connect", [&] { return connected(*world.scene, found.samples, *retract, connecting, run.progress); });
+  run.stage("write", [&] {
+    if (!options.samples_out.empty()) write_file(run.outputs.staged("--samples-out"), as_text(found));
+    if (!options.svg.empty())
+      write_roadmap_svg(run.outputs.staged("--svg"), obstacles.city->footprints, found.samples, roadmap);
+    if (!options.glb.empty()) write_roadmap_glb(run.outputs.staged("--glb"), *obstacles.mesh, found.samples, roadmap);
+  });
+
+  nlohmann::ordered_json& json = run.report;
+  json["samples"] = found.samples.size();
+  json["on_axis"] = found.share_on_axis();
+  json["edges"] = roadmap.edges.size();
+  json["distance_queries"] = found.distance_queries + roadmap.distance_queries;
+  json["collision_checks"] = found.collision_checks;
+  json["components"] = roadmap.components;
+  json["obstacles"] = world.scene->obstacles();
+  json["drawn"] = found.drawn;
+  json["lost"] = found.lost;
+  json["method"] = name_of(methods, options.method);
+  json["input"] = options.scene;
+  const std::string written =
+      run.report_files({{"samples_out", options.samples_out}, {"svg", options.svg}, {"glb", options.glb}});
+  const bool fewer = found.samples.size() < static_cast<std::size_t>(options.sampling.count);
+  run.summary = fmt::format(
+      "{}: {} samples among {} obstacles, {:.1f} % on the axis, {} edges{}{}", options.scene, found.samples.size(),
+      world.scene->obstacles(), 100 * found.share_on_axis(), roadmap.edges.size(),
+      fewer ? fmt::format("\nfewer than asked for: {} configurations were drawn", found.drawn) : "", written);
+}
+
+Action add(CLI::App& command) {
+  const auto options = std::make_shared<Options>();
+  command.add_option("SCENE", options->scene, "The obstacles: footprints of a city in degrees (.geojson), or a mesh")
+      ->required()
+      ->type_name("");
+  add_count(command, "--limit", options->limit, 1, "Of a city, the N footprints nearest to the centre [all]");
+  add_choice(command, "--method", options->method, methods,
+             "Max-margin fields, or medial-axis PRM with rays or with exact distances [svma]");
+  add_count(command, "--samples", options->sampling.count, 1, "Samples of the axis [1000]");
+  add_choice(command, "--step", options->push.step, steps,
+             "Steps of svma: by the field's score, by clearances, or first one and then the other [combined]");
+  add_positive(command, "--epsilon", options->push.epsilon,
+               "Where svma stops: at this score, and at distances that differ by this share [0.02]");
+  add_positive(command, "--tolerance", options->tolerance,
+               "Concavity of the parts that are obstacles, as a share of R; without it a footprint is one obstacle and "
+               "hollows have no axis of their own [meshes: 0.05]");
+  add_count(command, "--neighbours", options->connecting.neighbours, 1, "Edges tried from each sample [8]");
+  add_file(command, "--samples-out", options->samples_out,
+           "Write a configuration a line (metres in a city), then its two smallest obstacle distances (.txt)");
+  add_file(command, "--svg", options->svg, "Draw the roadmap of a city (.svg)");
+  add_file(command, "--glb", options->glb, "Show the roadmap of a mesh (.glb)");
+  return [options](Run& run) { roadmap_of_file(*options, run); };
+}
+
+}  // namespace
+
+const Verb roadmap_verb = {
+    .name = "roadmap",
+    .summary = "The medial axis of the free space among obstacles, as a graph",
+    .details =
+        "Samples are as far from the nearest obstacle as from the second one; edges stay near the axis and are free "
+        "all\n"
+        "along. svma writes only samples that were checked: their two distances differ by at most 2 %.",
+    .example = "  partwise roadmap town.geojson --limit 354 --samples 40000 --svg town.svg --json -",
+    .add = add,
+};
+
+}  // namespace partwise::cli

@@ -1,0 +1,20 @@
+// What `partwise roadmap` found, for people: a drawing of the plane, a scene of space to be turned.
+#pragma once
+
+#include <filesystem>
+
+#include "partwise/geometry/mesh.h"
+#include "partwise/geometry/polygon.h"
+#include "partwise/motion/roadmap.h"
+
+namespace partwise::cli {
+
+// Obstacles grey, edges from dark blue where they are close to obstacles to yellow where there is room.
+void write_roadmap_svg(const std::filesystem::path& path, const std::vector<Polygons>& obstacles,
+                       const std::vector<AxisSample>& samples, const Roadmap& roadmap);
+
+// The obstacles, and the edges as thin tubes in the same colours.
+void write_roadmap_glb(const std::filesystem::path& path, const Mesh& obstacles, const std::vector<AxisSample>& samples,
+                       const Roadmap& roadmap);
+
+}  // namespace partwise::cli

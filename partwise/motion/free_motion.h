@@ -1,0 +1,24 @@
+// Whether a robot may go straight from one configuration to another, decided by distances alone: around a free
+// configuration of clearance c, all configurations of a displacement below c are free (configuration_space.h). So a
+// motion is halved until such balls cover it: no sampling, nothing between two checks.
+//
+// Contact within `resolution` cannot be told from collision and counts as such.
+#pragma once
+
+#include "partwise/motion/scene.h"
+
+namespace partwise {
+
+// The robot's distance from the nearest obstacle; 0 where it is not free.
+double clearance(const Scene& scene, const Configuration& q);
+
+struct MotionCheck {
+  bool free = false;
+  int distance_queries = 0;
+};
+
+// The clearances at both ends are known. `resolution` is a displacement, positive.
+MotionCheck free_motion(const Scene& scene, const Configuration& a, double clearance_a, const Configuration& b,
+                        double clearance_b, double resolution);
+
+}  // namespace partwise
