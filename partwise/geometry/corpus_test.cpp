@@ -42,6 +42,7 @@ Mesh read_as(const std::string& name, std::string_view bytes) {
   if (name.ends_with(".obj")) return read_obj(name, bytes);
   if (name.ends_with(".ply")) return read_ply(name, bytes);
   if (name.ends_with(".stl")) return read_stl(name, bytes);
+  if (name.ends_with(".g")) return read_byu(name, bytes);
   if (name.ends_with(".glb")) return read_glb(name, bytes, kCorpus);
   return read_gltf(name, bytes, kCorpus);
 }
@@ -62,7 +63,7 @@ void expect_mesh_or_message(const std::string& name, std::string_view bytes) {
 TEST(Corpus, SurvivesCuttingAndChangingEveryByte) {
   for (const char* name : {"comments.off", "colours.off", "l_prism_of_polygons.off", "all_corner_forms.obj",
                            "continued_lines.obj", "extra_elements.ply", "big_endian.ply", "little_endian.ply",
-                           "ascii.stl", "binary.stl", "tetrahedron.glb", "nodes.glb", "embedded.gltf"}) {
+                           "ascii.stl", "binary.stl", "two_parts.g", "tetrahedron.glb", "nodes.glb", "embedded.gltf"}) {
     SCOPED_TRACE(name);
     std::ifstream file(kCorpus / name, std::ios::binary);
     const std::string bytes(std::istreambuf_iterator<char>(file), {});

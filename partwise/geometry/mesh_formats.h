@@ -25,6 +25,7 @@ Mesh read_off(const std::string& file, std::string_view bytes);
 Mesh read_obj(const std::string& file, std::string_view bytes);
 Mesh read_ply(const std::string& file, std::string_view bytes);
 Mesh read_stl(const std::string& file, std::string_view bytes);
+Mesh read_byu(const std::string& file, std::string_view bytes);
 // Buffers that are files of their own are looked for in `folder`.
 Mesh read_gltf(const std::string& file, std::string_view bytes, const std::filesystem::path& folder);
 Mesh read_glb(const std::string& file, std::string_view bytes, const std::filesystem::path& folder);

@@ -13,7 +13,7 @@
 namespace partwise {
 namespace {
 
-enum class Format { off, obj, ply, stl, gltf, glb };
+enum class Format { off, obj, ply, stl, byu, gltf, glb };
 
 Format format_of(const std::filesystem::path& path) {
   std::string ending = path.extension().string();
@@ -21,6 +21,7 @@ Format format_of(const std::filesystem::path& path) {
                                      {".obj", Format::obj},
                                      {".ply", Format::ply},
                                      {".stl", Format::stl},
+                                     {".g", Format::byu},
                                      {".gltf", Format::gltf},
                                      {".glb", Format::glb}}) {
     if (equals_ignoring_case(ending, name)) return format;
@@ -28,7 +29,7 @@ Format format_of(const std::filesystem::path& path) {
   throw InputError(path.string(),
                    ending.empty() ? "has no ending that names a mesh format"
                                   : fmt::format("{} is not the ending of a mesh format", shown(ending)),
-                   "use .off, .obj, .ply, .stl, .gltf or .glb");
+                   "use .off, .obj, .ply, .stl, .g, .gltf or .glb");
 }
 
 // What a text in UTF-16 looks like to a reader of bytes is of no help to anyone.
@@ -51,6 +52,8 @@ Mesh read(const std::string& file, std::string_view bytes, const std::filesystem
       return read_ply(file, bytes);
     case Format::stl:
       return read_stl(file, bytes);
+    case Format::byu:
+      return read_byu(file, bytes);
     case Format::gltf:
       return read_gltf(file, bytes, folder);
     case Format::glb:
@@ -69,6 +72,9 @@ void write(const std::filesystem::path& path, std::span<const NamedMeshView> mes
   const Format format = format_of(path);
   if (format == Format::gltf) {
     throw InputError(path.string(), "glTF is written as one binary file only", "use the ending .glb");
+  }
+  if (format == Format::byu) {
+    throw InputError(path.string(), "BYU is read only", "use .off, .obj, .ply, .stl or .glb");
   }
   const bool single_precision = format == Format::stl || format == Format::glb;
   for (const NamedMeshView& each : meshes) {
@@ -96,6 +102,7 @@ void write(const std::filesystem::path& path, std::span<const NamedMeshView> mes
     case Format::stl:
       write_stl(file.stream(), meshes);
       break;
+    case Format::byu:
     case Format::gltf:
     case Format::glb:
       write_glb(file.stream(), meshes);

@@ -1,13 +1,14 @@
 // Triangle meshes from and to files: OFF, OBJ, PLY (ascii, binary little and big endian), STL (ascii and binary),
-// glTF 2.0 (.gltf and .glb). The format is chosen by the ending, in any case of letters.
+// MOVIE.BYU (.g, as text; read only), glTF 2.0 (.gltf and .glb). The format is chosen by the ending, in any case of
+// letters.
 //
 // Reading. Polygons are triangulated (a fan for convex ones, ear clipping otherwise). Several objects, groups or glTF
 // nodes (with their transforms; mirrors turn the faces back) become one mesh in file order. STL's corners, which have
 // no common indices, are joined where their coordinates are equal (0 and -0 too), and so are, within each mesh of a
 // glTF, its vertices, which are split at seams; those that no triangle uses are dropped there. Colours, normals,
-// textures and materials are passed over. In OFF, OBJ and PLY vertices that no face uses stay, and degenerate and
-// repeated faces stay everywhere: `read_mesh` keeps the face order and (OFF, OBJ, PLY) the vertex order of the file, so
-// that a line a face in a .seg file fits it. A polygon of n corners is n - 2 faces in a row.
+// textures and materials are passed over. In OFF, OBJ, PLY and BYU vertices that no face uses stay, and degenerate and
+// repeated faces stay everywhere: `read_mesh` keeps the face order and (OFF, OBJ, PLY, BYU) the vertex order of the
+// file, so that a line a face in a .seg file fits it. A polygon of n corners is n - 2 faces in a row.
 //
 // What real files do is understood: comments, blank lines, line ends of any system, UTF-8 with a byte order mark; OFF
 // with colours or normals, with a wrong or no number of edges, with counts glued to the keyword; OBJ with negative

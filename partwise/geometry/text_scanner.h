@@ -1,4 +1,4 @@
-// A cursor over the text of a mesh file, for the readers of OFF, OBJ, PLY and STL.
+// A cursor over the text of a mesh file, for the readers of OFF, OBJ, PLY, STL and BYU, and of problem files.
 //
 // Tokens are runs of bytes other than blanks; blanks are space, tab, carriage return and line feed, so that the line
 // ends of every system do. A backslash before a line end joins two lines (OBJ). A comment runs from a token's first

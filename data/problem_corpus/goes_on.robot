@@ -1,0 +1,5 @@
+1
+cube.g Volumetric Rotational
+Connections
+0
+Passive

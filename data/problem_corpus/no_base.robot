@@ -1,0 +1,4 @@
+1
+cube.g Joint
+Connections
+0

@@ -1,0 +1,3 @@
+0
+Connections
+0

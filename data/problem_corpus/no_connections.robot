@@ -1,0 +1,2 @@
+1
+cube.g Planar Rotational

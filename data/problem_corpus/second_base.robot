@@ -1,0 +1,6 @@
+2
+cube.g Volumetric Rotational
+cube.g Volumetric Rotational
+Connections
+0
+

@@ -1,0 +1,6 @@
+2
+cube.g Volumetric Rotational
+cube.g Joint
+Connections
+0
+

@@ -1,0 +1,4 @@
+1
+cube.g Floating Rotational
+Connections
+0

@@ -1,0 +1,4 @@
+1
+cube.g Planar Sideways
+Connections
+0

@@ -1,0 +1,4 @@
+1
+cube.g Volumetric Rotational
+Connections
+0

@@ -1,0 +1,170 @@
+#include "partwise/motion/planning_problem.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <system_error>
+
+#include "partwise/base/error.h"
+#include "partwise/geometry/mesh_io.h"
+#include "partwise/geometry/text_scanner.h"
+#include "partwise/motion/problem_formats.h"
+
+namespace partwise {
+namespace {
+
+bool is_planar(SpaceKind kind) { return kind == SpaceKind::plane || kind == SpaceKind::se2; }
+
+// "1, 2.5"
+std::string listed(const auto& numbers) {
+  std::string text;
+  for (const double each : numbers) text += fmt::format("{}{}", text.empty() ? "" : ", ", each);
+  return text;
+}
+
+}  // namespace
+
+PlanningProblem read_planning_problem(const std::filesystem::path& path, const ProblemFiles& files) {
+  const std::string ending = path.extension().string();
+  if (equals_ignoring_case(ending, ".env")) return read_env_problem(path, files);
+  for (const auto& other : {files.robot, files.query}) {
+    if (!other.empty()) throw InputError(other.string(), "goes with an .env file only", "leave it out");
+  }
+  if (equals_ignoring_case(ending, ".cfg")) return read_cfg_problem(path);
+  if (equals_ignoring_case(ending, ".json")) return read_json_problem(path);
+  throw InputError(path.string(),
+                   ending.empty() ? "has no ending that names a problem format"
+                                  : fmt::format("{} is not the ending of a problem format", shown(ending)),
+                   "use .cfg, .env or .json");
+}
+
+bool within_bounds(const PlanningProblem& problem, const Configuration& q) {
+  const Eigen::Index axes = is_planar(problem.kind) ? 2 : 3;
+  const auto low = problem.bounds.min().head(axes), high = problem.bounds.max().head(axes);
+  const double slack = 1e-9 * (high - low).norm();
+  const auto holds = [&](const Eigen::Vector3d& point) {
+    const auto p = point.head(axes);
+    if ((p.array() < low.array() - slack).any() || (p.array() > high.array() + slack).any()) return false;
+    if (!problem.sphere) return true;
+    const Eigen::Vector3d from_centre = point - problem.sphere->centre.transpose();
+    return from_centre.head(axes).norm() <= problem.sphere->radius + slack;
+  };
+  const Eigen::Isometry3d pose = ConfigurationSpace(problem.kind, problem.bounds, 1).pose(q);
+  if (!problem.bounds_hold_body || problem.robot.empty()) return holds(pose.translation());
+  return std::ranges::all_of(problem.robot, [&](const Mesh& body) {
+    for (const auto& vertex : body.vertices.rowwise()) {
+      if (!holds(pose * vertex.transpose())) return false;
+    }
+    return true;
+  });
+}
+
+std::string_view trimmed(std::string_view text) {
+  constexpr const char* blanks = " \t\r\n\v\f";
+  const std::size_t first = text.find_first_not_of(blanks);
+  return first == std::string_view::npos ? "" : text.substr(first, text.find_last_not_of(blanks) + 1 - first);
+}
+
+double to_number(std::string_view text, const std::string& place, std::string_view what) {
+  text = trimmed(text);
+  const std::string_view digits = text.starts_with('+') ? text.substr(1) : text;
+  double value = 0;
+  const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error == std::errc::result_out_of_range) {
+    throw InputError(place, fmt::format("{} is {}, which no double holds", what, shown(text)), "correct it");
+  }
+  if (error != std::errc() || stop != digits.data() + digits.size()) {
+    throw InputError(place, fmt::format("{} is {}, which is not a number", what, shown(text)), "correct it");
+  }
+  if (!std::isfinite(value)) {
+    throw InputError(place, fmt::format("{} is {}, which is not finite", what, shown(text)), "correct it");
+  }
+  return value;
+}
+
+Mesh read_named_mesh(const std::filesystem::path& folder, const std::string& name, const std::string& place) {
+  const std::filesystem::path path = folder / name;
+  if (equals_ignoring_case(path.extension().string(), ".dae")) {
+    throw InputError(place, fmt::format("{} is a COLLADA mesh, which is not read", shown(name)),
+                     "convert it to .obj, .stl or .glb and name that");
+  }
+  std::error_code trouble;  // a name that is too long, say
+  if (!std::filesystem::exists(path, trouble)) {
+    throw InputError(place, fmt::format("names the mesh {}, which does not exist", shown(name)),
+                     "put it there, or correct the name");
+  }
+  return read_mesh(path);
+}
+
+void move_mesh(Mesh& mesh, const Eigen::Isometry3d& pose) {
+  mesh.vertices = (mesh.vertices * pose.linear().transpose()).eval();
+  mesh.vertices.rowwise() += pose.translation().transpose();
+}
+
+Configuration configuration_at(SpaceKind kind, const Eigen::Vector3d& position, const Eigen::Quaterniond& rotation) {
+  if (is_planar(kind)) {
+    const Eigen::Vector3d ahead = rotation * Eigen::Vector3d::UnitX();
+    const Configuration q = planar_configuration_at(position.x(), position.y(), std::atan2(ahead.y(), ahead.x()));
+    return kind == SpaceKind::plane ? Configuration(q.head(2)) : q;
+  }
+  Configuration q(kind == SpaceKind::space ? 3 : 7);
+  q.head(3) = position;
+  if (kind == SpaceKind::se3) {
+    const Eigen::Quaterniond unit = rotation.normalized();
+    const double sign = unit.w() < 0 ? -1 : 1;
+    q.tail(4) << sign * unit.w(), sign * unit.x(), sign * unit.y(), sign * unit.z();
+  }
+  return q;
+}
+
+Configuration planar_configuration_at(double x, double y, double angle) {
+  constexpr double turn = 2 * std::numbers::pi;
+  Configuration q(3);
+  q << x, y, angle - turn * std::floor(angle / turn + 0.5);
+  return q;
+}
+
+Eigen::AlignedBox3d obstacle_box(const PlanningProblem& problem) {
+  Eigen::AlignedBox3d box;
+  for (const Mesh& mesh : problem.obstacles) {
+    for (const auto& vertex : mesh.vertices.rowwise()) box.extend(vertex.transpose());
+  }
+  for (const Polygons& polygons : problem.footprints) {
+    const Eigen::AlignedBox2d flat = bounding_box(polygons);
+    box.extend(Eigen::Vector3d(flat.min().x(), flat.min().y(), 0));
+    box.extend(Eigen::Vector3d(flat.max().x(), flat.max().y(), 0));
+  }
+  if (is_planar(problem.kind)) box.min().z() = box.max().z() = 0;
+  return box;
+}
+
+void expect_obstacles(const PlanningProblem& problem, const std::string& place) {
+  if (problem.obstacles.empty() && problem.footprints.empty()) {
+    throw InputError(place, "the world holds no obstacle", "give at least one");
+  }
+}
+
+void expect_room(const PlanningProblem& problem, const std::string& place) {
+  const char* axes[] = {"x", "y", "z"};
+  for (int i = 0; i < (is_planar(problem.kind) ? 2 : 3); ++i) {
+    const double low = problem.bounds.min()[i], high = problem.bounds.max()[i];
+    if (!(low < high)) {
+      throw InputError(place,
+                       fmt::format("the bounds run from {} to {} along {} and leave no room", low, high, axes[i]),
+                       "give a lower and a higher number");
+    }
+  }
+}
+
+void expect_within_bounds(const PlanningProblem& problem, const Configuration& q, const std::string& place,
+                          std::string_view what) {
+  if (within_bounds(problem, q)) return;
+  const bool by_body = problem.bounds_hold_body && !problem.robot.empty();
+  throw InputError(place,
+                   fmt::format("{} at {} {} outside the bounds", what, listed(q.head(is_planar(problem.kind) ? 2 : 3)),
+                               by_body ? "has the robot" : "lies"),
+                   "move it, or widen the bounds");
+}
+
+}  // namespace partwise

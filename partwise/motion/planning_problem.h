@@ -1,0 +1,57 @@
+// A motion planning problem as a file tells it: a rigid robot, obstacles, where the robot may be, and where it should
+// go. docs/problems.md describes the formats, which the ending chooses, in any case of letters:
+//
+//   .cfg   OMPL.app's, with the meshes that it names beside it
+//   .env   Parasol's (open-ppl), with its robot in it or in a .robot file, and queries in a .query file
+//   .json  Partwise's own
+//
+// Lengths are in the unit of the file, angles in radians, configurations as configuration_space.h has them. Bodies are
+// given in the robot's frame, which is the world's where the configuration is the identity; obstacles in the world's.
+// What the formats do to meshes is done: Parasol moves the mean of a body's vertices to its origin unless told
+// otherwise, OMPL.app the robot's centre. Meshes are neither repaired nor joined.
+//
+// Robots are rigid: one body, or several joined by fixed joints. Errors: InputError, one line with file and line or
+// place, for files that are missing, malformed or cut short, worlds without obstacles, bounds without room, starts and
+// goals outside them, and what is not supported: joints that move, several robots, COLLADA meshes, motion under
+// differential constraints.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "partwise/geometry/mesh.h"
+#include "partwise/geometry/polygon.h"
+#include "partwise/motion/configuration_space.h"
+
+namespace partwise {
+
+struct MotionQuery {
+  Configuration start, goal;
+};
+
+struct PlanningProblem {
+  std::string name;
+  SpaceKind kind = SpaceKind::se3;
+  std::vector<Mesh> robot;           // its bodies; none: a point
+  std::vector<Mesh> obstacles;       // one a body of the file
+  std::vector<Polygons> footprints;  // the obstacles of a point in the plane, instead of meshes
+  Eigen::AlignedBox3d bounds;        // in the plane only x and y count, z is 0
+  std::optional<Sphere> sphere;      // where the bounds are one; `bounds` is then the box around it
+  bool bounds_hold_body = false;     // all of the robot stays within the bounds, not its origin alone (Parasol's)
+  std::vector<MotionQuery> queries;  // may be none, for a roadmap
+};
+
+// The other files of an .env; empty: those of the same stem beside it, else the only ones of their ending there.
+struct ProblemFiles {
+  std::filesystem::path robot, query;
+};
+
+PlanningProblem read_planning_problem(const std::filesystem::path& path, const ProblemFiles& files = {});
+
+// Whether the robot's origin, or all of its vertices where the bounds hold the body, lies within box and sphere, but
+// for rounding (1e-9 of the box's diagonal).
+bool within_bounds(const PlanningProblem& problem, const Configuration& q);
+
+}  // namespace partwise
