@@ -1,7 +1,7 @@
 // A binary tree of axis-aligned boxes in space, halved at the median of their centres along the longest axis. Asked for
-// boxes near a point, it goes down the nearer side first; time about log n and what lies as near as the answer.
+// boxes near a point or a box, it goes down the nearer side first; time about log n and what lies as near as the answer.
 //
-// Boxes are those of items 0 .. n - 1. What is visited, and in which order, depends on boxes and point alone.
+// Boxes are those of items 0 .. n - 1. What is visited, and in which order, depends on them and what is asked alone.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -26,6 +26,10 @@ class BoxTree {
   void near(const Eigen::Vector3d& p, double bound2, Visit&& visit) const {
     if (!nodes_.empty()) near(0, p, bound2, visit);
   }
+  template <typename Visit>
+  void near(const Box& box, double bound2, Visit&& visit) const {
+    if (!nodes_.empty()) near(0, box, bound2, visit);
+  }
 
   // Calls visit(item) for the boxes that hold p.
   template <typename Visit>
@@ -45,8 +49,8 @@ class BoxTree {
 
   int build(int begin, int end);
 
-  template <typename Visit>
-  void near(int number, const Eigen::Vector3d& p, double& bound2, Visit& visit) const {
+  template <typename Where, typename Visit>
+  void near(int number, const Where& p, double& bound2, Visit& visit) const {
     const Node& node = nodes_[static_cast<std::size_t>(number)];
     if (node.left < 0) {
       for (int i = node.begin; i < node.end; ++i) {
