@@ -38,7 +38,7 @@ AxisSamples axis_samples(const Scene& scene, const Retractor& retract, const Axi
       Draw draw(settings.seed, static_cast<std::uint64_t>(result.drawn) + i, axis_purpose);
       Try& each = tries[i];
       each.walk = retract(scene.space().drawn(draw), draw);
-      if (!each.walk.done || !scene.space().within_bounds(each.walk.q)) return;
+      if (!each.walk.done || !scene.within_bounds(each.walk.q)) return;
       each.state = axis_state(scene, each.walk.q);
       each.kept = settings.only_on_axis ? each.state.on_axis() : each.state.free;
     });

@@ -4,8 +4,8 @@
 //
 // Bodies are given in the robot's frame. An obstacle is a set of faces of `solid`, whose winding number says what is
 // inside (geometry/surface_query.h), so that parts which are not closed by themselves may be obstacles. The robot is in
-// collision where triangles meet, where a body lies wholly inside the solid, and where a piece of an obstacle lies wholly
-// inside a body; bodies that are not closed have no inside. In the plane, z is what the meshes say.
+// collision where triangles meet, where a body lies wholly inside the solid, and where a piece of an obstacle lies
+// wholly inside a body; bodies that are not closed have no inside. In the plane, z is what the meshes say.
 //
 // The rotation scale of the space is the body's radius about its origin, so that displacements bound the motion of all
 // its points (configuration_space.h). Time a distance: about log n of the triangles for each body and each obstacle

@@ -101,7 +101,7 @@ TEST(BodyScene, IsInCollisionWhereItTouchesOrIsInside) {
   const std::vector<Mesh> obstacles = {box_mesh({-4, -4, -4}, {4, 4, 4}), box_mesh({6, 0, 0}, {6.5, 0.5, 0.5})};
   const auto small = scene_of(SpaceKind::space, {box_mesh({-1, -1, -1}, {1, 1, 1})}, obstacles, 20);
   EXPECT_EQ(small->collision(Configuration{{4.5, 0.0, 0.0}}), 0);
-  EXPECT_EQ(small->collision(Configuration{{0.0, 0.5, 0.0}}), 0);    // wholly inside
+  EXPECT_EQ(small->collision(Configuration{{0.0, 0.5, 0.0}}), 0);     // wholly inside
   EXPECT_EQ(small->collision(Configuration{{6.25, 0.25, 0.25}}), 1);  // wholly around
   EXPECT_TRUE(small->free(Configuration{{9.0, 0.0, 0.0}}));
   EXPECT_NEAR(small->nearest(Configuration{{9.0, 0.0, 0.0}}, 1)[0].distance, 1.5, 1e-12);
@@ -118,9 +118,8 @@ TEST(BodyScene, TellsInsideBySolid) {
   for (const Mesh* mesh : {&static_cast<const Mesh&>(outer), &static_cast<const Mesh&>(inner)}) {
     for (Eigen::Index f = 0; f < 12; f += 2) obstacles.push_back({mesh->vertices, mesh->faces.middleRows(f, 2)});
   }
-  const auto scene =
-      body_scene(SpaceKind::se3, cube(8), {box_mesh({-0.2, -0.2, -0.2}, {0.2, 0.2, 0.2})}, obstacles,
-                 joined({outer, inner}));
+  const auto scene = body_scene(SpaceKind::se3, cube(8), {box_mesh({-0.2, -0.2, -0.2}, {0.2, 0.2, 0.2})}, obstacles,
+                                joined({outer, inner}));
   Configuration q(7);
   q << 0, 0, 0, 1, 0, 0, 0;
   EXPECT_TRUE(scene->free(q));

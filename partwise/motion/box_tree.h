@@ -1,5 +1,6 @@
 // A binary tree of axis-aligned boxes in space, halved at the median of their centres along the longest axis. Asked for
-// boxes near a point or a box, it goes down the nearer side first; time about log n and what lies as near as the answer.
+// boxes near a point or a box, it goes down the nearer side first; time about log n and what lies as near as the
+// answer.
 //
 // Boxes are those of items 0 .. n - 1. What is visited, and in which order, depends on them and what is asked alone.
 #pragma once

@@ -2,63 +2,34 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "partwise/base/error.h"
+#include "partwise/motion/even_points.h"
 #include "partwise/motion/sample_tree.h"
 
 namespace partwise {
 namespace {
 
-double size_of(const Ring& hull) {
-  double perimeter = 0;
-  for (Eigen::Index i = 0, j = hull.rows() - 1; i < hull.rows(); j = i++)
-    perimeter += (hull.row(i) - hull.row(j)).norm();
-  return perimeter;
-}
-
-double size_of(const Mesh& hull) {
-  const std::vector<double> areas = face_areas(hull);
-  return std::accumulate(areas.begin(), areas.end(), 0.0);
-}
-
-// Sizes of what a hull is made of, and a point of one of them.
-std::vector<double> pieces(const Ring& hull) {
-  std::vector<double> lengths;
-  for (Eigen::Index i = 0; i < hull.rows(); ++i)
-    lengths.push_back((hull.row((i + 1) % hull.rows()) - hull.row(i)).norm());
-  return lengths;
-}
-
-std::vector<double> pieces(const Mesh& hull) { return face_areas(hull); }
-
-Eigen::RowVector2d point_of(const Ring& hull, Eigen::Index side, double share, double /*across*/) {
-  return (1 - share) * hull.row(side) + share * hull.row((side + 1) % hull.rows());
-}
-
-Point point_of(const Mesh& hull, Eigen::Index face, double share, double across) {
-  const auto corner = [&](int i) { return hull.vertices.row(hull.faces(face, i)); };
-  const double root = std::sqrt(share);
-  return (1 - root) * corner(0) + root * ((1 - across) * corner(1) + across * corner(2));
-}
-
-// `count` points, evenly by size; `across` runs through a golden-ratio sequence.
 template <typename Hull>
-void add_points(const Hull& hull, int count, std::vector<MotionVector>& points) {
-  constexpr double golden = 0.6180339887498949;
-  const std::vector<double> sizes = pieces(hull);
-  const double step = std::accumulate(sizes.begin(), sizes.end(), 0.0) / count;
-  double at = 0.5 * step, start = 0;
-  int taken = 0;
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
-    for (; taken < count && at < start + sizes[i]; at += step, ++taken) {
-      const double across = std::fmod((taken + 0.5) * golden, 1.0);
-      points.push_back(point_of(hull, static_cast<Eigen::Index>(i), (at - start) / sizes[i], across).transpose());
-    }
-    start += sizes[i];
+ContactSamples sampled(const std::vector<Hull>& hulls, const std::vector<int>& obstacles, int each) {
+  PARTWISE_CHECK(hulls.size(), ==, obstacles.size());
+  const int count = obstacles.empty() ? 0 : *std::ranges::max_element(obstacles) + 1;
+  std::vector<double> whole(static_cast<std::size_t>(count), 0.0);
+  for (std::size_t i = 0; i < hulls.size(); ++i)
+    whole[static_cast<std::size_t>(obstacles[i])] += boundary_size(hulls[i]);
+  std::vector<MotionVector> points;
+  std::vector<int> labels;
+  for (std::size_t i = 0; i < hulls.size(); ++i) {
+    const double share = boundary_size(hulls[i]) / whole[static_cast<std::size_t>(obstacles[i])];
+    const int wanted = std::max(3, static_cast<int>(std::lround(share * each)));
+    for (const BoundaryPoint& point : even_points(std::span(&hulls[i], 1), wanted)) points.push_back(point.at);
+    labels.resize(points.size(), obstacles[i]);
   }
+  return assembled(points, std::move(labels), count);
 }
+
+}  // namespace
 
 ContactSamples assembled(const std::vector<MotionVector>& points, std::vector<int> obstacles, int count) {
   ContactSamples result;
@@ -69,24 +40,6 @@ ContactSamples assembled(const std::vector<MotionVector>& points, std::vector<in
   result.count = count;
   return result;
 }
-
-template <typename Hull>
-ContactSamples sampled(const std::vector<Hull>& hulls, const std::vector<int>& obstacles, int each) {
-  PARTWISE_CHECK(hulls.size(), ==, obstacles.size());
-  const int count = obstacles.empty() ? 0 : *std::ranges::max_element(obstacles) + 1;
-  std::vector<double> whole(static_cast<std::size_t>(count), 0.0);
-  for (std::size_t i = 0; i < hulls.size(); ++i) whole[static_cast<std::size_t>(obstacles[i])] += size_of(hulls[i]);
-  std::vector<MotionVector> points;
-  std::vector<int> labels;
-  for (std::size_t i = 0; i < hulls.size(); ++i) {
-    const double share = size_of(hulls[i]) / whole[static_cast<std::size_t>(obstacles[i])];
-    add_points(hulls[i], std::max(3, static_cast<int>(std::lround(share * each))), points);
-    labels.resize(points.size(), obstacles[i]);
-  }
-  return assembled(points, std::move(labels), count);
-}
-
-}  // namespace
 
 ContactSamples contact_samples(const std::vector<Ring>& hulls, const std::vector<int>& obstacles, int each) {
   return sampled(hulls, obstacles, each);

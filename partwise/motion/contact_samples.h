@@ -23,6 +23,9 @@ struct ContactSamples {
   Eigen::Index size() const { return points.rows(); }
 };
 
+// Of points, each with its obstacle, of `count`.
+ContactSamples assembled(const std::vector<MotionVector>& points, std::vector<int> obstacles, int count);
+
 // hulls[i], convex, belongs to obstacles[i]; `each` samples an obstacle, shared out among its hulls by their size.
 ContactSamples contact_samples(const std::vector<Ring>& hulls, const std::vector<int>& obstacles, int each);
 ContactSamples contact_samples(const std::vector<Mesh>& hulls, const std::vector<int>& obstacles, int each);

@@ -1,9 +1,12 @@
 #include "partwise/motion/free_motion.h"
 
+#include <algorithm>
+
 namespace partwise {
 
 double clearance(const Scene& scene, const Configuration& q) {
-  return scene.free(q) ? scene.nearest(q, 1).front().distance : 0;
+  const double room = scene.room(q);
+  return room > 0 && scene.free(q) ? std::min(room, scene.nearest(q, 1).front().distance) : 0;
 }
 
 MotionCheck free_motion(const Scene& scene, const Configuration& a, double clearance_a, const Configuration& b,

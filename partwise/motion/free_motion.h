@@ -1,6 +1,6 @@
 // Whether a robot may go straight from one configuration to another, decided by distances alone: around a free
-// configuration of clearance c, all configurations of a displacement below c are free (configuration_space.h). So a
-// motion is halved until such balls cover it: no sampling, nothing between two checks.
+// configuration of clearance c, all configurations of a displacement below c are free (configuration_space.h) and
+// within the bounds. So a motion is halved until such balls cover it: no sampling, nothing between two checks.
 //
 // Contact within `resolution` cannot be told from collision and counts as such.
 #pragma once
@@ -9,7 +9,8 @@
 
 namespace partwise {
 
-// The robot's distance from the nearest obstacle; 0 where it is not free.
+// The robot's distance from the nearest obstacle, or its room within the bounds if that is less; 0 where it is not free
+// or outside.
 double clearance(const Scene& scene, const Configuration& q);
 
 struct MotionCheck {

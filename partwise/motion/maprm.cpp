@@ -102,7 +102,7 @@ Retraction Maprm::operator()(const Configuration& q, Draw& draw) const {
   Witness there = from;
   const auto same = [&](double along) {
     const Configuration here = at(along);
-    if (!space.within_bounds(here)) return false;
+    if (!scene_.within_bounds(here)) return false;
     ++walk.collision_checks;
     if (!scene_.free(here)) return false;
     there = clearance(here, walk, draw);
@@ -119,7 +119,7 @@ Retraction Maprm::operator()(const Configuration& q, Draw& draw) const {
     (same(middle) ? low : high) = middle;
   }
   walk.q = at(low);
-  walk.done = scene_.free(walk.q) && space.within_bounds(at(high));
+  walk.done = scene_.free(walk.q) && scene_.within_bounds(at(high));
   ++walk.collision_checks;
   return walk;
 }

@@ -3,8 +3,8 @@
 // Manocha 1999). Surfaces only: one inside the other does not touch it.
 //
 // FCL's distance of triangles takes those whose normal is shorter than 3e-8 for degenerate, in whatever unit, and then
-// says 0 or too much. So meshes are scaled for it by a power of two, which rounds nothing: `proximity_scale` of the size
-// of all that will be compared, the same for all.
+// says 0 or too much. So meshes are scaled for it by a power of two, which rounds nothing: `proximity_scale` of the
+// size of all that will be compared, the same for all.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -92,8 +92,7 @@ class Connector {
   Stop pushed_middle(const Stop& a, const Stop& b, Draw& draw, Way& way) const {
     const Retraction walk = retract_(scene_.space().between(a.q, b.q, 0.5), draw);
     way.distance_queries += walk.distance_queries + 1;
-    if (!walk.done || !scene_.space().within_bounds(walk.q)) return {walk.q, 0};
-    return {walk.q, clearance(scene_, walk.q)};
+    return {walk.q, walk.done ? clearance(scene_, walk.q) : 0};
   }
 
   const Scene& scene_;
@@ -152,7 +151,7 @@ Roadmap connected(const Scene& scene, const std::vector<AxisSample>& samples, co
   const Connector connector(scene, retract, settings);
   const auto stop = [&](int i) {
     const AxisSample& sample = samples[static_cast<std::size_t>(i)];
-    return Connector::Stop{sample.q, sample.state.clearance()};
+    return Connector::Stop{sample.q, std::min(sample.state.clearance(), scene.room(sample.q))};
   };
   std::uint64_t tried = 0;
   // Whether any of the pairs could be joined.

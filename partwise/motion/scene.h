@@ -36,6 +36,13 @@ class Scene {
   virtual int collision(const Configuration& q) const = 0;
   bool free(const Configuration& q) const { return collision(q) < 0; }
 
+  // A displacement that keeps the robot within its bounds, 0 outside of them. Motions between two configurations within
+  // convex bounds of the origin stay there, whatever their length: infinite.
+  virtual double room(const Configuration& q) const {
+    return space_.within_bounds(q) ? std::numeric_limits<double>::infinity() : 0;
+  }
+  bool within_bounds(const Configuration& q) const { return room(q) > 0; }
+
   virtual Near distance(const Configuration& q, int obstacle) const = 0;
 
   // The obstacles, nearest first, up to `count` of them; of equally near ones the lower number first.

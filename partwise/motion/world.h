@@ -5,9 +5,13 @@
 //           obstacles of their own, so that hollows of a concave footprint have an axis; the field learns from parts of
 //           tolerance 0.1 in either case
 //   a mesh  obstacles are CoRiSE's parts of it (measure hull) to the tolerance (share of its radius), in space
+//   a problem  any robot that a file describes. CoRiSE's parts of each of its meshes, or DuDe's of its footprints, are
+//           obstacles; with `whole` each obstacle of the file stays one, and the field learns from its parts. The
+//           robot's bodies are decomposed as well, for the samples alone
 //
-// Bounds are the bounding box, wider by `margin` times its diagonal. Passages stay as they are, whatever the tolerance:
-// it only moves contact samples, by as much as hulls stand out. Errors: InputError of decomposition and scenes.
+// Bounds are the bounding box, wider by `margin` times its diagonal, or the problem's (bounded_scene.h). Passages stay
+// as they are, whatever the tolerance: it only moves contact samples, by as much as hulls stand out. Errors: InputError
+// of decomposition and scenes.
 #pragma once
 
 #include <memory>
@@ -15,8 +19,9 @@
 
 #include "partwise/base/progress.h"
 #include "partwise/geometry/mesh.h"
+#include "partwise/motion/body_contacts.h"
 #include "partwise/motion/city.h"
-#include "partwise/motion/contact_samples.h"
+#include "partwise/motion/planning_problem.h"
 #include "partwise/motion/scene.h"
 
 namespace partwise {
@@ -27,6 +32,12 @@ struct WorldSettings {
   double margin = 0.05;
 };
 
+struct ProblemWorldSettings {
+  double tolerance = 0.05;  // share of the radius of each mesh or footprint
+  bool whole = false;
+  BodyContactSettings contacts;  // of a point, `samples` alone
+};
+
 struct World {
   std::unique_ptr<Scene> scene;
   ContactSamples contacts;
@@ -34,5 +45,7 @@ struct World {
 
 World city_world(const City& city, const WorldSettings& settings = {}, const Progress& progress = {});
 World mesh_world(const Mesh& mesh, const WorldSettings& settings = {}, const Progress& progress = {});
+World problem_world(const PlanningProblem& problem, const ProblemWorldSettings& settings = {},
+                    const Progress& progress = {});
 
 }  // namespace partwise
