@@ -27,7 +27,7 @@ struct SolidParts {
   std::vector<int> owners;
 };
 
-// By CoRiSE, to `tolerance` (share of a mesh's radius).
+// By CoRiSE, to `tolerance` (share of a mesh's radius). Errors: InputError of decompose.h.
 SolidParts solid_parts(const std::vector<Mesh>& meshes, double tolerance, bool whole, const Progress& progress);
 
 // One mesh of all.

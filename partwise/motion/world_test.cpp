@@ -38,10 +38,10 @@ TEST(ProblemWorld, HasSamplesOnTheAxisOfSe3) {
     const World world = problem_world(problem);
     EXPECT_EQ(world.scene->obstacles(), 3);
     const MarginField field(world.scene->space(), world.contacts);
-    const AxisSamples found = axis_samples(*world.scene, MarginPush(*world.scene, field), {.count = 100});
-    ASSERT_EQ(found.samples.size(), 100u);
+    const AxisSamples found = axis_samples(*world.scene, MarginPush(*world.scene, field), {.count = 300});
+    ASSERT_EQ(found.samples.size(), 300u);
     EXPECT_LT(found.lost, found.drawn * 2 / 3);
-    for (std::size_t i = 0; i < 100; ++i) {
+    for (std::size_t i = 0; i < 300; ++i) {
       const Configuration& q = found.samples[i].q;
       EXPECT_TRUE(world.scene->free(q));
       const auto near = world.scene->nearest(q, 2);
