@@ -26,7 +26,7 @@ enum class ContactSource { contact, collision };  // on the surface of sums, or 
 
 struct BodyContactSettings {
   ContactSource source = ContactSource::contact;
-  int samples = 1000;           // an obstacle, before any is dropped
+  int samples = 300;            // an obstacle, before any is dropped; training takes about their square
   int rotations = 100;          // among which they are shared out, and there among sums by their size
   int most_hull_vertices = 24;  // of a hull; 0: any
 };
