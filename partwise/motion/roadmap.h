@@ -6,8 +6,8 @@
 // to the axis, or a long one, the edge stays straight, if that is free. Every piece of every edge is free by
 // certificate (free_motion.h).
 //
-// Samples come in clusters, whose nearest neighbours are each other. So components are then joined to each other, by the
-// nearest samples of each two that lie next to each other, until no further edge is found.
+// Samples come in clusters, whose nearest neighbours are each other. So components are then joined to each other, by
+// the nearest samples of each two that lie next to each other, until no further edge is found.
 //
 // The same for any number of threads. Errors: Cancelled.
 #pragma once
