@@ -58,13 +58,13 @@ def total(report):
 
 
 def row(name, report):
-    shares = [report["lost"] / report["drawn"], report["on_axis"]]
+    shares = [report["within_ten_steps"] / report["drawn"], report["lost"] / report["drawn"], report["on_axis"]]
     return [name, str(report["obstacles"]), *(cell(report["seconds"].get(stage), ".2f") for stage in STAGES), f"{total(report):.2f}",
             *(f"{100 * share:.1f}" for share in shares), str(report["edges"]), str(report["components"]),
             f"{report['distance_queries'] / report['samples']:.1f}", f"{report['collision_checks'] / report['samples']:.1f}"]
 
 
-HEADER = ["", "obstacles", *STAGES, "total s", "lost %", "on axis %", "edges", "components", "distances a sample", "checks"]
+HEADER = ["", "obstacles", *STAGES, "total s", "in 10 steps %", "lost %", "on axis %", "edges", "components", "distances a sample", "checks"]
 
 
 def compare(options, scenes):

@@ -123,6 +123,8 @@ void roadmap_of_file(const Options& options, Run& run) {
   json["obstacles"] = world.scene->obstacles();
   json["drawn"] = found.drawn;
   json["lost"] = found.lost;
+  json["steps"] = found.steps;
+  json["within_ten_steps"] = found.quick;
   json["method"] = name_of(methods, options.method);
   json["input"] = options.scene;
   const std::string written =

@@ -7,10 +7,11 @@ from pathlib import Path
 EARTH = 6371008.8
 
 
-def prism(ring, low, high, lines, offset):
-    """Walls, floor and roof of a ring of (x, z), y up; the floor and the roof as one polygon each."""
-    count = len(ring)
-    lines += [f"v {x} {y} {-z}" for y in (low, high) for x, z in ring]
+def tube(first, last, lines, offset):
+    """Walls between two rings of as many corners each, and the rings as one polygon each; last is where the outside sees
+    its ring run counter-clockwise. The number of vertices is returned."""
+    count = len(first)
+    lines += ["v " + " ".join(map(str, corner)) for corner in (*first, *last)]
     for i in range(count):
         j = (i + 1) % count
         lines.append(f"f {offset + i + 1} {offset + j + 1} {offset + count + j + 1} {offset + count + i + 1}")
@@ -31,7 +32,8 @@ def town(geojson, count, path, seed=1):
     for i, ring in enumerate(projected[:count]):
         area = sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(ring, ring[1:] + ring[:1]))
         height = 6 + (i * 2654435761 * seed % 97) / 4
-        offset = prism(ring if area > 0 else ring[::-1], 0, height, lines, offset)
+        ring = ring if area > 0 else ring[::-1]
+        offset = tube([(x, 0, -y) for x, y in ring], [(x, height, -y) for x, y in ring], lines, offset)
     Path(path).write_text("\n".join(lines) + "\n")
 
 
@@ -44,16 +46,9 @@ def bar(a, b, radius, lines, offset, sides=8):
     u = cross(along, helper)
     u = [each / math.hypot(*u) for each in u]
     v = cross(along, u)
-    for end in (a, b):
-        for k in range(sides):
-            c, s = math.cos(2 * math.pi * k / sides), math.sin(2 * math.pi * k / sides)
-            lines.append("v " + " ".join(str(e + radius * (c * x + s * y)) for e, x, y in zip(end, u, v)))
-    for i in range(sides):
-        j = (i + 1) % sides
-        lines.append(f"f {offset + i + 1} {offset + j + 1} {offset + sides + j + 1} {offset + sides + i + 1}")
-    lines.append("f " + " ".join(str(offset + sides - i) for i in range(sides)))
-    lines.append("f " + " ".join(str(offset + sides + i + 1) for i in range(sides)))
-    return offset + 2 * sides
+    turns = [(math.cos(2 * math.pi * k / sides), math.sin(2 * math.pi * k / sides)) for k in range(sides)]
+    rings = [[[e + radius * (c * x + s * y) for e, x, y in zip(end, u, v)] for c, s in turns] for end in (a, b)]
+    return tube(*rings, lines, offset)
 
 
 def cross(a, b):
@@ -61,7 +56,7 @@ def cross(a, b):
 
 
 def frame(path):
-    """148 bars: 16 columns of three floors, 24 beams a floor, and a roof of 28 rafters and struts."""
+    """148 bars: 16 columns of three floors, 24 beams a floor, and a roof of 28."""
     bays, step, height, radius = 4, 5.0, 3.5, 0.15
     bars = []
     for floor in range(3):

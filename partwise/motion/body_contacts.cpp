@@ -148,8 +148,8 @@ std::vector<Configuration> spread_rotations(const ConfigurationSpace& space, int
       const double alpha = 2 * std::numbers::pi * (i + 0.5) / std::numbers::sqrt2;
       const double beta = 2 * std::numbers::pi * (i + 0.5) / psi;
       const double a = std::sqrt(share), b = std::sqrt(1 - share);
-      q.tail<4>() << b * std::cos(beta), a * std::sin(alpha), a * std::cos(alpha), b * std::sin(beta);
-      if (q[3] < 0) q.tail<4>() *= -1;
+      q.tail<4>() =
+          quaternion_coordinates({b * std::cos(beta), a * std::sin(alpha), a * std::cos(alpha), b * std::sin(beta)});
     }
     result.push_back(q);
   }
@@ -166,7 +166,6 @@ ContactSamples body_contacts(const ConfigurationSpace& space, const std::vector<
     parts[static_cast<std::size_t>(obstacles[i])].push_back(static_cast<int>(i));
   const std::vector<Mesh> bodies = simplified(robot, settings.most_hull_vertices);
   const std::vector<Mesh> few = simplified(hulls, settings.most_hull_vertices);
-  const bool flat = space.kind() == SpaceKind::plane || space.kind() == SpaceKind::se2;
 
   const std::vector<Configuration> rotations = spread_rotations(space, settings.rotations);
   const auto share = std::lround(static_cast<double>(settings.samples) / static_cast<double>(rotations.size()));
@@ -178,7 +177,7 @@ ContactSamples body_contacts(const ConfigurationSpace& space, const std::vector<
     std::vector<Vertices> turned;
     for (const Mesh& body : bodies) turned.emplace_back(body.vertices * turn.transpose());
     const auto number = static_cast<int>(i);
-    if (flat)
+    if (is_planar(space.kind()))
       Sampler<PlanarSum>(std::move(turned), few, parts, settings.source, at_each).add(rotations[i], number, found[i]);
     else
       Sampler<SpatialSum>(std::move(turned), few, parts, settings.source, at_each).add(rotations[i], number, found[i]);

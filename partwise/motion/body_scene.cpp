@@ -9,6 +9,7 @@
 #include "partwise/geometry/surface_query.h"
 #include "partwise/geometry/topology.h"
 #include "partwise/motion/box_tree.h"
+#include "partwise/motion/insert_nearest.h"
 #include "partwise/motion/mesh_proximity.h"
 
 namespace partwise {
@@ -16,8 +17,6 @@ namespace {
 
 using Box = BoxTree::Box;
 constexpr double anywhere = std::numeric_limits<double>::infinity();
-
-bool is_planar(SpaceKind kind) { return kind == SpaceKind::plane || kind == SpaceKind::se2; }
 
 Box box_of(const Mesh& mesh) {
   Box box;
@@ -155,7 +154,7 @@ class BodyScene final : public Scene {
     Near result{number, best->distance, Tangent::Zero(space().degrees_of_freedom())};
     if (best->distance == 0) return result;
     const Eigen::Vector3d away = (best->there - best->here) / best->distance;
-    const Eigen::Index positions = is_planar(space().kind()) ? 2 : 3;
+    const Eigen::Index positions = position_axes(space().kind());
     result.gradient.head(positions) = away.head(positions);
     if (!space().rotates()) return result;
     const Eigen::Vector3d moment = (best->there - at.pose.translation()).cross(away) / space().rotation_scale();
@@ -172,11 +171,7 @@ class BodyScene final : public Scene {
       const double below = full ? std::nextafter((1 + hair) * found.back().distance, anywhere) : anywhere;
       const std::optional<Near> next = near(at, number, below);
       if (!next) return bound2;
-      const auto nearer = [](const Near& a, const Near& b) {
-        return std::pair(a.distance, a.obstacle) < std::pair(b.distance, b.obstacle);
-      };
-      found.insert(std::ranges::upper_bound(found, *next, nearer), *next);
-      if (found.size() > wanted) found.pop_back();
+      insert_nearest(found, *next, wanted);
       return found.size() == wanted ? found.back().distance * found.back().distance : bound2;
     });
     return found;
@@ -193,7 +188,7 @@ class BodyScene final : public Scene {
 double body_radius(SpaceKind kind, const std::vector<Mesh>& robot) {
   double radius = 0;
   for (const Mesh& body : robot) {
-    const auto used = is_planar(kind) ? body.vertices.leftCols(2) : body.vertices.leftCols(3);
+    const auto used = body.vertices.leftCols(position_axes(kind));
     if (used.rows() > 0) radius = std::max(radius, used.rowwise().norm().maxCoeff());
   }
   return radius;

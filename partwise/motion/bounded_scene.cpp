@@ -25,7 +25,6 @@ class BoundedScene final : public Scene {
   BoundedScene(std::unique_ptr<Scene> scene, const PlanningProblem& problem)
       : Scene(scene->space()),
         scene_(std::move(scene)),
-        axes_(problem.kind == SpaceKind::plane || problem.kind == SpaceKind::se2 ? 2 : 3),
         sphere_(problem.sphere),
         holds_body_(problem.bounds_hold_body && !problem.robot.empty()) {
     if (holds_body_) corners_ = corners_of(problem.robot);
@@ -46,19 +45,11 @@ class BoundedScene final : public Scene {
   }
 
  private:
-  // Below the surface of the bounds, negative outside.
   double depth(const Eigen::Vector3d& point) const {
-    const auto p = point.head(axes_);
-    const auto low = space().bounds().min().head(axes_), high = space().bounds().max().head(axes_);
-    const double in_box = (p - low).cwiseMin(high - p).minCoeff();
-    if (!sphere_) return in_box;
-    Eigen::Vector3d from_centre = point - sphere_->centre.transpose();
-    if (axes_ == 2) from_centre.z() = 0;
-    return std::min(in_box, sphere_->radius - from_centre.norm());
+    return depth_within(space().bounds(), sphere_, space().kind(), point);
   }
 
   std::unique_ptr<Scene> scene_;
-  Eigen::Index axes_;
   std::optional<Sphere> sphere_;
   bool holds_body_;
   std::vector<Eigen::Vector3d> corners_;

@@ -10,19 +10,7 @@ namespace {
 
 using Eigen::Matrix3d, Eigen::Quaterniond, Eigen::Vector3d;
 
-double wrapped(double angle) {
-  constexpr double turn = 2 * std::numbers::pi;
-  angle -= turn * std::floor(angle / turn + 0.5);
-  return angle;
-}
-
 Quaterniond rotation(const Configuration& q) { return {q[3], q[4], q[5], q[6]}; }
-
-void set_rotation(Configuration& q, Quaterniond to) {
-  to.normalize();
-  const double sign = to.w() < 0 ? -1 : 1;
-  q.segment<4>(3) << sign * to.w(), sign * to.x(), sign * to.y(), sign * to.z();
-}
 
 Quaterniond exponential(const Vector3d& rotation_vector) {
   const double angle = rotation_vector.norm();
@@ -39,6 +27,17 @@ Vector3d logarithm(const Quaterniond& q) {
 }
 
 }  // namespace
+
+double wrapped_angle(double angle) {
+  constexpr double turn = 2 * std::numbers::pi;
+  return angle - turn * std::floor(angle / turn + 0.5);
+}
+
+Eigen::Vector4d quaternion_coordinates(Quaterniond rotation) {
+  rotation.normalize();
+  const double sign = rotation.w() < 0 ? -1 : 1;
+  return {sign * rotation.w(), sign * rotation.x(), sign * rotation.y(), sign * rotation.z()};
+}
 
 ConfigurationSpace::ConfigurationSpace(SpaceKind kind, const Eigen::AlignedBox3d& bounds, double rotation_scale)
     : kind_(kind), bounds_(bounds), scale_(rotation_scale) {
@@ -94,15 +93,16 @@ Configuration ConfigurationSpace::moved(const Configuration& q, const Tangent& b
   PARTWISE_CHECK(by.size(), ==, degrees_of_freedom());
   Configuration result = q;
   result.head(positions()) += by.head(positions());
-  if (kind_ == SpaceKind::se2) result[2] = wrapped(q[2] + by[2] / scale_);
-  if (kind_ == SpaceKind::se3) set_rotation(result, exponential(by.tail<3>() / scale_) * rotation(q));
+  if (kind_ == SpaceKind::se2) result[2] = wrapped_angle(q[2] + by[2] / scale_);
+  if (kind_ == SpaceKind::se3)
+    result.tail<4>() = quaternion_coordinates(exponential(by.tail<3>() / scale_) * rotation(q));
   return result;
 }
 
 Tangent ConfigurationSpace::difference(const Configuration& a, const Configuration& b) const {
   Tangent result(degrees_of_freedom());
   result.head(positions()) = b.head(positions()) - a.head(positions());
-  if (kind_ == SpaceKind::se2) result[2] = scale_ * wrapped(b[2] - a[2]);
+  if (kind_ == SpaceKind::se2) result[2] = scale_ * wrapped_angle(b[2] - a[2]);
   if (kind_ == SpaceKind::se3) result.tail<3>() = scale_ * logarithm(rotation(b) * rotation(a).conjugate());
   return result;
 }
@@ -131,7 +131,7 @@ Configuration ConfigurationSpace::drawn(Draw& draw) const {
   if (kind_ == SpaceKind::se3) {  // evenly over the unit quaternions (Shoemake 1992)
     const double u = draw.unit(), v = 2 * std::numbers::pi * draw.unit(), w = 2 * std::numbers::pi * draw.unit();
     const double a = std::sqrt(1 - u), b = std::sqrt(u);
-    set_rotation(q, {b * std::cos(w), a * std::sin(v), a * std::cos(v), b * std::sin(w)});
+    q.tail<4>() = quaternion_coordinates({b * std::cos(w), a * std::sin(v), a * std::cos(v), b * std::sin(w)});
   }
   return q;
 }

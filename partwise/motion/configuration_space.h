@@ -24,10 +24,17 @@ namespace partwise {
 
 enum class SpaceKind { plane, space, se2, se3 };
 
+inline bool is_planar(SpaceKind kind) { return kind == SpaceKind::plane || kind == SpaceKind::se2; }
+inline int position_axes(SpaceKind kind) { return is_planar(kind) ? 2 : 3; }
+
 // Room for the largest embedding, so that none of this allocates.
 using MotionVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 12, 1>;
 using Configuration = MotionVector;
 using Tangent = MotionVector;
+
+double wrapped_angle(double angle);  // in [-pi, pi)
+// w x y z of the rotation, of unit length with w >= 0.
+Eigen::Vector4d quaternion_coordinates(Eigen::Quaterniond rotation);
 
 class ConfigurationSpace {
  public:
@@ -59,7 +66,7 @@ class ConfigurationSpace {
   Eigen::Isometry3d pose(const Configuration& q) const;
 
  private:
-  int positions() const { return kind_ == SpaceKind::plane || kind_ == SpaceKind::se2 ? 2 : 3; }
+  int positions() const { return position_axes(kind_); }
 
   SpaceKind kind_;
   Eigen::AlignedBox3d bounds_;

@@ -181,7 +181,6 @@ ParasolRobot read_robot_file(const std::filesystem::path& env, const std::filesy
 Configuration read_configuration(TextScanner& scanner, SpaceKind kind) {
   if (scanner.integer("the number of the robot") != 0)
     scanner.fail("several robots are not supported", "plan for number 0");
-  const bool planar = kind == SpaceKind::plane || kind == SpaceKind::se2;
   const std::size_t wanted = kind == SpaceKind::plane ? 2 : kind == SpaceKind::se3 ? 6 : 3;
   std::vector<double> numbers;
   while (!scanner.at_line_end()) numbers.push_back(scanner.coordinate("a coordinate"));
@@ -197,7 +196,7 @@ Configuration read_configuration(TextScanner& scanner, SpaceKind kind) {
                AngleAxisd(std::numbers::pi * numbers[3], Vector3d::UnitX());
   }
   if (kind == SpaceKind::se2) return planar_configuration_at(numbers[0], numbers[1], std::numbers::pi * numbers[2]);
-  return configuration_at(kind, {numbers[0], numbers[1], planar ? 0 : numbers[2]}, rotation);
+  return configuration_at(kind, {numbers[0], numbers[1], is_planar(kind) ? 0 : numbers[2]}, rotation);
 }
 
 void read_queries(const std::filesystem::path& path, PlanningProblem& problem) {
@@ -236,7 +235,7 @@ PlanningProblem read_env_problem(const std::filesystem::path& path, const Proble
   problem.kind = robot->kind;
   problem.robot = std::move(robot->bodies);
   expect_obstacles(problem, path.string());
-  if (problem.kind == SpaceKind::plane || problem.kind == SpaceKind::se2) {
+  if (is_planar(problem.kind)) {
     problem.bounds.min().z() = problem.bounds.max().z() = 0;
     if (problem.sphere) problem.sphere->centre.z() = 0;
   } else if (boundary.dimension == 2) {

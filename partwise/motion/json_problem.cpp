@@ -51,7 +51,7 @@ class ProblemReader {
     return {path_.string(), place, value, "docs/problems.md"};
   }
   std::string at(const std::string& place) const { return path_.string() + ": " + place; }
-  bool planar() const { return problem_.kind == SpaceKind::plane || problem_.kind == SpaceKind::se2; }
+  bool planar() const { return is_planar(problem_.kind); }
   bool rotates() const { return problem_.kind == SpaceKind::se2 || problem_.kind == SpaceKind::se3; }
 
   static const json& list(const JsonFields& fields, const std::string& name, const json& value) {

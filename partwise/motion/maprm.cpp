@@ -33,9 +33,7 @@ std::vector<Tangent> directions(int count, int degrees_of_freedom, Draw& draw) {
 
 Maprm::Maprm(const Scene& scene, const MaprmSettings& settings) : scene_(scene), settings_(settings) {
   const ConfigurationSpace& space = scene.space();
-  const bool flat = space.kind() == SpaceKind::plane || space.kind() == SpaceKind::se2;
-  const Eigen::Vector3d size = space.bounds().sizes();
-  const double diagonal = flat ? size.head<2>().norm() : size.norm();
+  const double diagonal = space.bounds().sizes().head(position_axes(space.kind())).norm();
   if (settings_.resolution <= 0) settings_.resolution = diagonal / 2000;
 }
 

@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "partwise/geometry/convex_hull.h"
-#include "partwise/geometry/topology.h"
 #include "partwise/parts/planar/outline.h"
 #include "partwise/parts/planar/planar_hull.h"
 #include "partwise/parts/solid/decompose.h"
@@ -37,23 +35,6 @@ std::vector<Mesh> part_meshes(const Mesh& mesh, const std::vector<int>& labels, 
   return result;
 }
 
-double size_of(const Mesh& mesh) {
-  return (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).norm();
-}
-
-// Closed, with no vertex above the plane of any face.
-bool is_convex(const Mesh& mesh) {
-  constexpr double rounding = 1e-9;  // share of its size
-  const double size = size_of(mesh);
-  for (const auto& face : mesh.faces.rowwise()) {
-    const Eigen::Vector3d a = mesh.vertices.row(face[0]), b = mesh.vertices.row(face[1]),
-                          c = mesh.vertices.row(face[2]);
-    const Eigen::Vector3d normal = (b - a).cross(c - a);
-    if (((mesh.vertices.rowwise() - a.transpose()) * normal).maxCoeff() > rounding * size * normal.norm()) return false;
-  }
-  return is_watertight(weld(mesh));
-}
-
 }  // namespace
 
 PlanarParts planar_parts(const std::vector<Polygons>& footprints, double tolerance, bool whole,
@@ -76,13 +57,6 @@ SolidParts solid_parts(const std::vector<Mesh>& meshes, double tolerance, bool w
   SolidParts result;
   std::vector<Mesh> solids;
   for (const Mesh& mesh : meshes) {
-    if (mesh.faces.rows() > 0 && is_convex(mesh)) {  // nothing to decompose, nor to measure
-      result.owners.push_back(static_cast<int>(result.obstacles.size()));
-      result.obstacles.push_back(mesh);
-      result.hulls.push_back(convex_hull(mesh.vertices, 1e-9 * size_of(mesh)).mesh);
-      solids.push_back(mesh);
-      continue;
-    }
     const Decomposition parts = decompose(mesh, {.tolerance = tolerance}, progress);
     const auto before = static_cast<int>(result.obstacles.size());
     if (whole)

@@ -6,6 +6,7 @@
 
 #include "partwise/base/error.h"
 #include "partwise/geometry/closest_point.h"
+#include "partwise/motion/insert_nearest.h"
 
 namespace partwise {
 namespace {
@@ -64,11 +65,7 @@ std::vector<NearestPoint> ObstacleTree::nearest_obstacles(const Point& p, int co
   boxes_.near(p.transpose(), anywhere, [&](int number, double bound2) {
     const NearestPoint next = nearest(p, number, bound2);
     if (next.obstacle < 0) return bound2;
-    const auto nearer = [](const NearestPoint& a, const NearestPoint& b) {
-      return std::pair(a.distance, a.obstacle) < std::pair(b.distance, b.obstacle);
-    };
-    found.insert(std::ranges::upper_bound(found, next, nearer), next);
-    if (found.size() > wanted) found.pop_back();
+    insert_nearest(found, next, wanted);
     return found.size() == wanted ? found.back().offset.squaredNorm() : bound2;
   });
   return found;

@@ -14,8 +14,6 @@
 namespace partwise {
 namespace {
 
-bool is_planar(SpaceKind kind) { return kind == SpaceKind::plane || kind == SpaceKind::se2; }
-
 // "1, 2.5"
 std::string listed(const auto& numbers) {
   std::string text;
@@ -39,16 +37,18 @@ PlanningProblem read_planning_problem(const std::filesystem::path& path, const P
                    "use .cfg, .env or .json");
 }
 
+double depth_within(const Eigen::AlignedBox3d& bounds, const std::optional<Sphere>& sphere, SpaceKind kind,
+                    const Eigen::Vector3d& point) {
+  const int axes = position_axes(kind);
+  const double in_box = (point - bounds.min()).cwiseMin(bounds.max() - point).head(axes).minCoeff();
+  if (!sphere) return in_box;
+  return std::min(in_box, sphere->radius - (point - sphere->centre.transpose()).head(axes).norm());
+}
+
 bool within_bounds(const PlanningProblem& problem, const Configuration& q) {
-  const Eigen::Index axes = is_planar(problem.kind) ? 2 : 3;
-  const auto low = problem.bounds.min().head(axes), high = problem.bounds.max().head(axes);
-  const double slack = 1e-9 * (high - low).norm();
+  const double slack = 1e-9 * problem.bounds.sizes().head(position_axes(problem.kind)).norm();
   const auto holds = [&](const Eigen::Vector3d& point) {
-    const auto p = point.head(axes);
-    if ((p.array() < low.array() - slack).any() || (p.array() > high.array() + slack).any()) return false;
-    if (!problem.sphere) return true;
-    const Eigen::Vector3d from_centre = point - problem.sphere->centre.transpose();
-    return from_centre.head(axes).norm() <= problem.sphere->radius + slack;
+    return depth_within(problem.bounds, problem.sphere, problem.kind, point) >= -slack;
   };
   const Eigen::Isometry3d pose = ConfigurationSpace(problem.kind, problem.bounds, 1).pose(q);
   if (!problem.bounds_hold_body || problem.robot.empty()) return holds(pose.translation());
@@ -110,19 +110,12 @@ Configuration configuration_at(SpaceKind kind, const Eigen::Vector3d& position, 
   }
   Configuration q(kind == SpaceKind::space ? 3 : 7);
   q.head(3) = position;
-  if (kind == SpaceKind::se3) {
-    const Eigen::Quaterniond unit = rotation.normalized();
-    const double sign = unit.w() < 0 ? -1 : 1;
-    q.tail(4) << sign * unit.w(), sign * unit.x(), sign * unit.y(), sign * unit.z();
-  }
+  if (kind == SpaceKind::se3) q.tail<4>() = quaternion_coordinates(rotation);
   return q;
 }
 
 Configuration planar_configuration_at(double x, double y, double angle) {
-  constexpr double turn = 2 * std::numbers::pi;
-  Configuration q(3);
-  q << x, y, angle - turn * std::floor(angle / turn + 0.5);
-  return q;
+  return Configuration{{x, y, wrapped_angle(angle)}};
 }
 
 Eigen::AlignedBox3d obstacle_box(const PlanningProblem& problem) {
@@ -147,7 +140,7 @@ void expect_obstacles(const PlanningProblem& problem, const std::string& place) 
 
 void expect_room(const PlanningProblem& problem, const std::string& place) {
   const char* axes[] = {"x", "y", "z"};
-  for (int i = 0; i < (is_planar(problem.kind) ? 2 : 3); ++i) {
+  for (int i = 0; i < position_axes(problem.kind); ++i) {
     const double low = problem.bounds.min()[i], high = problem.bounds.max()[i];
     if (!(low < high)) {
       throw InputError(place,
@@ -162,7 +155,7 @@ void expect_within_bounds(const PlanningProblem& problem, const Configuration& q
   if (within_bounds(problem, q)) return;
   const bool by_body = problem.bounds_hold_body && !problem.robot.empty();
   throw InputError(place,
-                   fmt::format("{} at {} {} outside the bounds", what, listed(q.head(is_planar(problem.kind) ? 2 : 3)),
+                   fmt::format("{} at {} {} outside the bounds", what, listed(q.head(position_axes(problem.kind))),
                                by_body ? "has the robot" : "lies"),
                    "move it, or widen the bounds");
 }

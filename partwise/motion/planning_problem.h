@@ -50,6 +50,10 @@ struct ProblemFiles {
 
 PlanningProblem read_planning_problem(const std::filesystem::path& path, const ProblemFiles& files = {});
 
+// How deep a point lies within box and sphere; negative outside. In the plane z does not count.
+double depth_within(const Eigen::AlignedBox3d& bounds, const std::optional<Sphere>& sphere, SpaceKind kind,
+                    const Eigen::Vector3d& point);
+
 // Whether the robot's origin, or all of its vertices where the bounds hold the body, lies within box and sphere, but
 // for rounding (1e-9 of the box's diagonal).
 bool within_bounds(const PlanningProblem& problem, const Configuration& q);

@@ -131,7 +131,7 @@ TEST(AxisSamples, LieOnTheExactMedialAxis) {
   EXPECT_LT(accuracy(rays, axis), accuracy(ours, axis));
 }
 
-// Samples reach all of the axis, but where it is farther from all obstacles than they are wide (outside).
+// Samples reach all of the axis between the rectangles; outside of them it runs away from all.
 TEST(AxisSamples, CoverTheMedialAxis) {
   const Town place = town(4, 2);
   const MarginField field(place.scene->space(), place.contacts);

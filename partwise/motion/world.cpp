@@ -50,6 +50,7 @@ World mesh_world(const Mesh& mesh, const WorldSettings& settings, const Progress
 World problem_world(const PlanningProblem& problem, const ProblemWorldSettings& settings, const Progress& progress) {
   World world;
   if (!problem.footprints.empty()) {
+    PARTWISE_CHECK(problem.robot.size(), ==, 0u);  // footprints are a point's
     const PlanarParts parts = planar_parts(problem.footprints, settings.tolerance, settings.whole, progress);
     const Eigen::AlignedBox2d bounds(problem.bounds.min().head<2>(), problem.bounds.max().head<2>());
     world = planar_world(parts, bounds, settings.contacts.samples);

@@ -1,13 +1,13 @@
 // Obstacles made ready for motion among them: the scene that decides what is free, on the geometry as it was given, and
 // the contact samples of its obstacles' nearly convex parts, which the field learns from.
 //
-//   a city  obstacles are footprints in the plane. With a tolerance (share of a footprint's radius) DuDe's parts are
-//           obstacles of their own, so that hollows of a concave footprint have an axis; the field learns from parts of
-//           tolerance 0.1 in either case
-//   a mesh  obstacles are CoRiSE's parts of it (measure hull) to the tolerance (share of its radius), in space
+//   a city     obstacles are footprints in the plane. With a tolerance (share of a footprint's radius) DuDe's parts are
+//              obstacles of their own, so that hollows of a concave footprint have an axis; without one the field
+//              learns from parts of tolerance 0.1
+//   a mesh     obstacles are CoRiSE's parts of it (measure hull) to the tolerance (share of its radius), in space
 //   a problem  any robot that a file describes. CoRiSE's parts of each of its meshes, or DuDe's of its footprints, are
-//           obstacles; with `whole` each obstacle of the file stays one, and the field learns from its parts. The
-//           robot's bodies are decomposed as well, for the samples alone
+//              obstacles; with `whole` each obstacle of the file stays one, and the field learns from its parts. The
+//              robot's bodies are decomposed as well, for the samples alone
 //
 // Bounds are the bounding box, wider by `margin` times its diagonal, or the problem's (bounded_scene.h). Passages stay
 // as they are, whatever the tolerance: it only moves contact samples, by as much as hulls stand out. Errors: InputError

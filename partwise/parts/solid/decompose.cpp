@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "partwise/base/error.h"
 #include "partwise/geometry/convex_hull.h"
@@ -15,6 +17,7 @@
 #include "partwise/geometry/topology.h"
 #include "partwise/geometry/union_volume.h"
 #include "partwise/parts/solid/convex_ridges.h"
+#include "partwise/parts/solid/convex_solid.h"
 #include "partwise/parts/solid/hull_decomposition.h"
 #include "partwise/parts/solid/part_merging.h"
 #include "partwise/parts/solid/valley_decomposition.h"
@@ -275,6 +278,16 @@ Decomposition decompose(const Mesh& mesh, const DecompositionSettings& settings,
   const double tolerance = settings.absolute ? settings.tolerance / sphere.radius : settings.tolerance;
   const double thickness = std::min(kLargestThickness, tolerance / 10);
 
+  if (std::optional<Mesh> hull = convex_solid(mesh, sphere, thickness);
+      hull && (settings.max_hull_vertices == 0 || hull->vertices.rows() <= settings.max_hull_vertices)) {
+    result.mesh = mesh;
+    result.labels.assign(static_cast<std::size_t>(mesh.faces.rows()), 0);
+    result.mesh_labels = result.labels;
+    result.hulls.push_back(*std::move(hull));
+    result.watertight = true;
+    result.volume_ratio = 1;
+    return result;
+  }
   auto scene = watch.time("prepare", [&] { return std::make_unique<Scene>(mesh, sphere, tolerance, thickness); });
   Result best = run(mesh, *scene, tolerance, settings, watch, progress);
   result.mesh = mesh;
