@@ -46,6 +46,7 @@ struct Options {
   int count = 500;
   bench::EditCaseSettings cases;
   bool given = false, known_normals = false, refine = false;
+  RefinementSettings refinement;
 };
 
 ordered_json difference(const Image& image, const Image& truth, const Image& object) {
@@ -111,7 +112,7 @@ class Reader {
                                 networks_.log_radiance(truth.picture)};
       json["material"] = material_error(found.material, truth, range_);
       add(json, "", found, truth);
-      if (options_.refine) add(json, "refined_", refined(found, range_, truth.picture, truth.regions).found, truth);
+      if (options_.refine) add(json, "refined_", refined(found, range_, truth.picture, truth.regions, options_.refinement).found, truth);
     }
     return json;
   }
@@ -195,5 +196,9 @@ int main(int argc, char** argv) {
   CLI::Option* given = app.add_flag("--given", options.given, "true normals and light");
   app.add_flag("--known-normals", options.known_normals, "true normals, the rest optimised")->excludes(given);
   app.add_flag("--refine", options.refine, "after refinement as well");
+  app.add_option("--normal-weight", options.refinement.normal_weight, "a of (3.6)")->check(CLI::NonNegativeNumber);
+  app.add_option("--light-weight", options.refinement.light_weight, "b of (3.6)")->check(CLI::NonNegativeNumber);
+  app.add_option("--material-weight", options.refinement.material_weight, "c")->check(CLI::NonNegativeNumber);
+  app.add_option("--rounds", options.refinement.rounds, "of refinement")->check(CLI::PositiveNumber);
   return bench::run_tool("editing_errors", app, argc, argv, [&] { return judge(options); });
 }

@@ -4,18 +4,22 @@
 #include <ATen/TensorOperators.h>
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "partwise/appearance/rendering/reflectance_map.h"
 #include "partwise/base/draw.h"
 #include "partwise/base/error.h"
+#include "partwise/editing/drawn_light.h"
 #include "partwise/editing/editing_networks.h"
 #include "partwise/editing/image_tensors.h"
 #include "partwise/editing/picture_terms.h"
 #include "partwise/imaging/tone_mapping.h"
+#include "partwise/learning/view_warp.h"
 
 namespace partwise {
 namespace {
@@ -46,26 +50,24 @@ DsbrdfCoefficients drawn_material(Draw& draw, const std::vector<DsbrdfCoefficien
   return result;
 }
 
-EnvironmentLight drawn_light(Draw& draw, const std::vector<EnvironmentLight>& lights, bool varied) {
-  const auto any = [&] {
-    return lights[static_cast<std::size_t>(draw.below(static_cast<int>(lights.size())))].rotated(360 * draw.unit());
-  };
-  EnvironmentLight first = any();
-  if (!varied) return first;
-  Image radiance(first.width(), first.height(), 3);
-  const auto add = [&](const EnvironmentLight& light, double share) {
-    std::array<float, 3> tint;
-    for (float& each : tint) each = static_cast<float>(share * std::exp2(draw.within(-0.25, 0.25)));
-    for (std::size_t i = 0; i < radiance.values.size(); ++i)
-      radiance.values[i] += tint[i % 3] * light.radiance().values[i];
-  };
-  add(first, 1);
-  if (draw.unit() < 0.5) {
-    const EnvironmentLight second = any();
-    const double share = std::exp2(draw.within(-3, 0));
-    add(second, share * first.energy().mean() / std::max(second.energy().mean(), 1e-9));
-  }
-  return EnvironmentLight(std::move(radiance));
+EnvironmentLight light_for(Draw& draw, const std::vector<EnvironmentLight>& lights, bool varied) {
+  if (varied) return drawn_light(draw, lights);
+  return lights[static_cast<std::size_t>(draw.below(static_cast<int>(lights.size())))].rotated(360 * draw.unit());
+}
+
+// Three times in four.
+std::optional<ViewWarp> drawn_warp(Draw& draw) {
+  if (draw.unit() < 0.25) return std::nullopt;
+  constexpr double turn = std::numbers::pi / 12;
+  const auto stretch = [&] { return std::exp2(draw.within(-0.35, 0.35)); };
+  const Eigen::Rotation2Dd along(std::numbers::pi * draw.unit());  // in which the object is stretched
+  const Eigen::Vector2d both(stretch(), stretch());
+  ViewWarp warp;
+  warp.plane = Eigen::Rotation2Dd(draw.within(-turn, turn)) * along * both.asDiagonal() * along.inverse();
+  warp.lean = {draw.within(-0.35, 0.35), draw.within(-0.35, 0.35)};
+  warp.depth = stretch();
+  warp.share = draw.within(0.6, 0.95);
+  return warp;
 }
 
 Image looked_up(const ReflectanceMap& map, const Image& normals) {
@@ -99,7 +101,7 @@ EditSamples::Group EditSamples::group(std::uint64_t batch, std::int64_t number) 
   Draw light = draw_for(settings_.seed, batch, number, Purpose::light);
   Group result;
   for (DsbrdfCoefficients& each : result.materials) each = drawn_material(material, materials_, settings_.varied);
-  const EnvironmentLight radiance = drawn_light(light, lights_, settings_.varied);
+  const EnvironmentLight radiance = light_for(light, lights_, settings_.varied);
   result.radiance = planes_of(radiance.radiance());
   const LightSamples samples = light_samples(radiance);
   tbb::parallel_for(std::size_t(0), result.maps.size(), [&](std::size_t i) {
@@ -131,7 +133,9 @@ void EditSamples::add_row(std::uint64_t batch, std::int64_t row, std::int64_t fi
   const std::int64_t view = draw.below(static_cast<int>(views_.size()));
   const bool mirrored = draw.unit() < 0.5;
   const double stops = settings_.varied ? draw.within(-exposure_stops, exposure_stops) : 0;
-  const at::Tensor normals = views_.normals(view, mirrored);
+  const std::optional<ViewWarp> warp = settings_.varied ? drawn_warp(draw) : std::nullopt;
+  at::Tensor normals = views_.normals(view, mirrored);
+  if (warp) normals = warped_normals(normals, *warp);
   const at::Tensor mask = (normals.square().sum(0, true) > 0).to(at::kFloat);
   const auto worn = static_cast<std::size_t>(row % 2), wanted = 1 - worn;
   const Image shape = image_of(normals);

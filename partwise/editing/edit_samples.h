@@ -5,10 +5,11 @@
 // rows wear the first material and are to be changed into the second, even ones the other way round. A reflectance map
 // (appearance/rendering) of each of the two materials shows all of the group, which is what makes this fast.
 //   materials   one of those given, or half of the time a blend of two; channels in any order
-//   light       one of those given, turned about y, or half of the time the sum of two, brightness and colour varied
-//   view        any, mirrored half of the time
+//   light       photographed maps made over, or lamps (drawn_light.h)
+//   view        any, mirrored half of the time; three times in four stretched, turned by up to 15 degrees and leaned,
+//               which makes other shapes of those there are (learning/view_warp.h)
 //   exposure    the median of the object to 0.18, times 2^-0.75 to 2^0.75
-// `varied` off: materials, lights and exposure as they are, for validation and tests.
+// `varied` off: materials, lights, views and exposure as they are, for validation and tests.
 //
 // Row i of batch b depends on the seed, b and i alone. All on the CPU, on all threads. Errors: CheckFailed where there
 // is nothing to draw from.
