@@ -112,7 +112,8 @@ class Reader {
                                 networks_.log_radiance(truth.picture)};
       json["material"] = material_error(found.material, truth, range_);
       add(json, "", found, truth);
-      if (options_.refine) add(json, "refined_", refined(found, range_, truth.picture, truth.regions, options_.refinement).found, truth);
+      if (options_.refine)
+        add(json, "refined_", refined(found, range_, truth.picture, truth.regions, options_.refinement).found, truth);
     }
     return json;
   }

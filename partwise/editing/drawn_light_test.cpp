@@ -53,7 +53,8 @@ TEST(DrawnLight, IsPhotographedOrLamps) {
 TEST(DrawnLight, DependsOnTheDrawAlone) {
   for (const std::uint64_t number : {1u, 2u, 3u, 4u}) {
     Draw first(3, number, 1), second(3, number, 1);
-    EXPECT_EQ(drawn_light(first, {red_light()}).radiance().values, drawn_light(second, {red_light()}).radiance().values);
+    EXPECT_EQ(drawn_light(first, {red_light()}).radiance().values,
+              drawn_light(second, {red_light()}).radiance().values);
   }
 }
 

@@ -35,7 +35,8 @@ class Pixels {
     double object = 0;
     for (int i = 0; i < 4; ++i) {
       const double weight = (i % 2 == 0 ? left + 1 - x : x - left) * (i < 2 ? above + 1 - y : y - above);
-      const Eigen::Vector3d normal = at(static_cast<std::int64_t>(above) + i / 2, static_cast<std::int64_t>(left) + i % 2);
+      const Eigen::Vector3d normal =
+          at(static_cast<std::int64_t>(above) + i / 2, static_cast<std::int64_t>(left) + i % 2);
       if (normal.isZero()) continue;
       sum += weight * normal;
       object += weight;

@@ -9,8 +9,8 @@ namespace {
 
 constexpr float kInPlane = 1e-6f;  // of R: so near to a face's plane counts as in it, and single precision tells it
 
-Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor> face_planes(const Mesh& mesh) {
-  Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor> planes(mesh.faces.rows(), 4);
+VisibleRegion::Planes face_planes(const Mesh& mesh) {
+  VisibleRegion::Planes planes(mesh.faces.rows(), 4);
   for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
     const Point a = mesh.vertices.row(mesh.faces(f, 0));
     const Point across = (mesh.vertices.row(mesh.faces(f, 1)) - a).cross(mesh.vertices.row(mesh.faces(f, 2)) - a);
@@ -27,6 +27,7 @@ VisibleRegion::VisibleRegion(const SurfaceGraph& graph, const InnerVisibility& v
     : graph_(graph),
       visibility_(visibility),
       planes_(face_planes(graph.mesh)(graph.face_list, Eigen::all)),
+      first_planes_(planes_(Eigen::Map<const Eigen::ArrayXi>(graph.first_face.data(), graph.size()), Eigen::all)),
       state_(static_cast<std::size_t>(graph.size())),
       traced_(static_cast<std::size_t>(graph.mesh.faces.rows()), 0),
       parent_(static_cast<std::size_t>(graph.size())) {}
@@ -61,13 +62,15 @@ void VisibleRegion::forget_traces() {
   traced_faces_.clear();
 }
 
+bool VisibleRegion::inside(const Planes& planes, std::ptrdiff_t i) const {
+  const float* plane = planes.data() + 4 * i;
+  return plane[0] * eye_[0] + plane[1] * eye_[1] + plane[2] * eye_[2] <= plane[3];
+}
+
 bool VisibleRegion::positive(int v) {
   if (is(v, kPositive | kNegative)) return is(v, kPositive);
-  bool any = false;
-  for (int i = graph_.first_face[v]; i < graph_.first_face[v + 1] && !any; ++i) {
-    const float* plane = planes_.data() + 4 * static_cast<std::ptrdiff_t>(i);
-    any = plane[0] * eye_[0] + plane[1] * eye_[1] + plane[2] * eye_[2] <= plane[3];
-  }
+  bool any = inside(first_planes_, v);
+  for (int i = graph_.first_face[v] + 1; i < graph_.first_face[v + 1] && !any; ++i) any = inside(planes_, i);
   set(v, any ? kPositive : kNegative);
   return any;
 }
@@ -178,17 +181,24 @@ void VisibleRegion::start_from(const std::vector<std::pair<int, int>>& hints) {
   }
 }
 
-// A hidden vertex at the boundary of the flood: it is joined to a vertex that is not positive, so it is truly outside,
-// and the flood has come to it through the region's contour, which is traced from where the way back is seen again.
-bool VisibleRegion::cut_leak() {
+bool VisibleRegion::way_is_blocked(int v) const {
+  while (v != viewpoint_ && !is(v, kBlocked)) v = parent_[v];
+  return v != viewpoint_;
+}
+
+// Hidden vertices at the boundary of the flood: each is joined to a vertex that is not positive, so it is truly
+// outside, and the flood has come to it through the region's contour, which is traced from where the way back is seen
+// again. Those whose way a contour of this round has cut are left to the next flood, which may not come to them.
+bool VisibleRegion::cut_leaks() {
+  bool found = false;
   for (const auto& [inner, outer] : boundary_) {
-    if (visible(inner)) continue;
+    if ((found && way_is_blocked(inner)) || visible(inner)) continue;
     int hidden = inner;
     while (!visible(parent_[hidden])) hidden = parent_[hidden];
     block(trace(parent_[hidden], hidden));
-    return true;
+    found = true;
   }
-  return false;
+  return found;
 }
 
 void VisibleRegion::spread_certainty(int from) {
@@ -258,7 +268,7 @@ void VisibleRegion::filter(const std::vector<std::pair<int, int>>* hints) {
   if (hints) start_from(*hints);
   for (;;) {  // Each round blocks a vertex more.
     flood();
-    if (cut_leak()) continue;
+    if (cut_leaks()) continue;
     spread_certainty(viewpoint_);
     Certified all = Certified::yes;
     for (std::size_t i = 0; i < boundary_.size() && all == Certified::yes; ++i) all = certify(boundary_[i].first);

@@ -25,6 +25,8 @@ namespace partwise {
 // One viewpoint at a time; keeps its arrays from one to the next. One a thread.
 class VisibleRegion {
  public:
+  using Planes = Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor>;  // rows n, d: n . x <= d inside
+
   VisibleRegion(const SurfaceGraph& graph, const InnerVisibility& visibility);
 
   // Finds the region of a viewpoint. `hints` (of filter): another viewpoint's edge_pairs(); the nearer, the fewer
@@ -57,6 +59,7 @@ class VisibleRegion {
   bool is(int v, int states) const { return (state_[v] & states) != 0; }
   void set(int v, State state) { state_[v] = static_cast<std::uint16_t>(state_[v] | state); }
   void clear(int v, State state) { state_[v] = static_cast<std::uint16_t>(state_[v] & ~state); }
+  bool inside(const Planes& planes, std::ptrdiff_t i) const;  // the viewpoint, or in the plane
   bool positive(int v);
   bool visible(int v);  // asks a ray at most once
 
@@ -71,7 +74,8 @@ class VisibleRegion {
   void forget_traces();
   void block(const Contour& contour);
   void start_from(const std::vector<std::pair<int, int>>& hints);
-  bool cut_leak();
+  bool way_is_blocked(int v) const;
+  bool cut_leaks();
   enum class Certified { yes, changed, failed };
   Certified certify(int boundary);
   void spread_certainty(int from);
@@ -79,9 +83,9 @@ class VisibleRegion {
 
   const SurfaceGraph& graph_;
   const InnerVisibility& visibility_;
-  Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor> planes_;  // n . x <= d inside, as in face_list
-  std::vector<std::uint16_t> state_;                                 // of vertices
-  std::vector<char> traced_;                                         // of faces
+  Planes planes_, first_planes_;  // as in face_list; the first of each vertex again, so that most tests stay in cache
+  std::vector<std::uint16_t> state_;  // of vertices
+  std::vector<char> traced_;          // of faces
   std::vector<int> parent_, region_, walk_, traced_faces_;
   std::vector<std::pair<int, int>> boundary_;  // in the region, and a neighbour that is not
   std::vector<std::pair<int, int>> edge_pairs_;
