@@ -3,8 +3,9 @@
 // The distance may be any function that changes by at most the length of a step, such as SurfaceQuery::distance or the
 // distance outside of a solid. Branch and bound: on a triangle no value exceeds that at its middle by more than its
 // radius about it; the triangle with the largest bound is split at its longest side until bound and largest value found
-// are within `precision`. The directed Hausdorff distance between surfaces is found so. Deterministic, one thread.
-// Errors: InputError for a precision that is not positive; CheckFailed for a mesh without faces.
+// are within `precision`. The directed Hausdorff distance between surfaces is found so. Where the value is the largest
+// all over a face, it is split to pieces of the size of the precision. Deterministic, one thread. Errors: InputError
+// for a precision that is not positive; CheckFailed for a mesh without faces.
 #pragma once
 
 #include <functional>

@@ -26,6 +26,11 @@ using Box = std::array<double, 6>;  // low x, y, z, high x, y, z
 
 constexpr std::size_t group = 64;  // consecutive faces, near each other at first, that have a box in common
 
+Box box_of(const Triangle& t) {
+  const Point low = t[0].cwiseMin(t[1]).cwiseMin(t[2]), high = t[0].cwiseMax(t[1]).cwiseMax(t[2]);
+  return {low[0], low[1], low[2], high[0], high[1], high[2]};
+}
+
 bool meet(const Box& a, const Box& b) {
   for (std::size_t k = 0; k < 3; ++k)
     if (a[k] > b[k + 3] || b[k] > a[k + 3]) return false;
@@ -62,6 +67,7 @@ class Simplifier {
   struct Fan {
     std::vector<Triangle> triangles;        // the vertex first
     std::vector<std::array<int, 2>> links;  // the other two corners
+    std::vector<Box> boxes;
   };
 
   Point at(int vertex) const { return position_.row(vertex); }
@@ -102,10 +108,8 @@ void Simplifier::set_boxes(int vertex) {
   const int first = surface_.out[static_cast<std::size_t>(vertex)];
   int h = first;
   do {
-    const Point a = at(vertex), b = at(surface_.target(h)), c = at(surface_.origin[surface_.previous(h)]);
-    const Point low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
     Box& box = boxes_[static_cast<std::size_t>(h / 3)];
-    box = {low[0], low[1], low[2], high[0], high[1], high[2]};
+    box = box_of({at(vertex), at(surface_.target(h)), at(surface_.origin[surface_.previous(h)])});
     Box& whole = group_boxes_[static_cast<std::size_t>(h / 3) / group];
     for (std::size_t k = 0; k < 3; ++k) {
       whole[k] = std::min(whole[k], box[k]);
@@ -243,6 +247,7 @@ bool Simplifier::fan_crosses(int face, const Fan& fan, const std::array<int, 2>&
   const Triangle other{at(corners[0]), at(corners[1]), at(corners[2])};
   for (std::size_t i = 0; i < fan.triangles.size(); ++i) {
     const Triangle& triangle = fan.triangles[i];
+    if (!meet(fan.boxes[i], boxes_[static_cast<std::size_t>(face)])) continue;
     std::size_t shared = 0, in_other = 0, in_fan = 0;
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t e = 0; e < 2; ++e)
@@ -264,6 +269,7 @@ bool Simplifier::would_cross(int h, const Point& place) const {
     const int from = surface_.origin[edge], to = surface_.target(edge);
     fan.links.push_back({from, to});
     fan.triangles.push_back({place, at(from), at(to)});
+    fan.boxes.push_back(box_of(fan.triangles.back()));
     low = low.cwiseMin(at(from));
     high = high.cwiseMax(at(from));
   }
