@@ -38,7 +38,8 @@ void add_svg_page(std::string& svg, const Drawing& page, double top, double widt
                                                     : "valley");
   }
   for (const Label& label : page.labels) {
-    fmt::format_to(out, "<text x=\"{0:.4f}\" y=\"{1:.4f}\" font-size=\"{2:.3f}\" fill=\"rgb({3},{3},{3})\">{4}</text>\n",
+    fmt::format_to(out,
+                   "<text x=\"{0:.4f}\" y=\"{1:.4f}\" font-size=\"{2:.3f}\" fill=\"rgb({3},{3},{3})\">{4}</text>\n",
                    label.at.x(), top + height - label.at.y() + 0.35 * label.size, label.size,
                    std::lround(255 * label.colour), label.text);
   }
