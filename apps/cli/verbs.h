@@ -21,6 +21,7 @@ extern const Verb dataset_verb;
 extern const Verb train_verb;
 extern const Verb edit_verb;
 extern const Verb roadmap_verb;
+extern const Verb plan_verb;
 
 std::span<const Verb* const> verbs();
 

@@ -30,7 +30,7 @@ int AxisPlanner::add_end(const Configuration& q) {
   const Retraction pushed = retract_(q, draw);
   if (pushed.done && scene_.within_bounds(pushed.q) && scene_.free(pushed.q))
     waiting_.push_back({pushed.q, axis_state(scene_, pushed.q)});
-  direct_ = false;
+  joined_ = false;
   return number;
 }
 
@@ -55,6 +55,18 @@ void AxisPlanner::grow(const Progress& progress) {
   std::ranges::move(found.samples, std::back_inserter(samples));
   std::ranges::move(plain_samples(plain), std::back_inserter(samples));
   growing_.add(samples, progress);
+  joined_ = true;
+}
+
+void AxisPlanner::forget_ends() {
+  starts_.clear();
+  goals_.clear();
+}
+
+void AxisPlanner::join_ends(const Progress& progress) {
+  if (joined_) return;
+  growing_.add(std::exchange(waiting_, {}), progress);
+  joined_ = true;
 }
 
 std::optional<MotionPath> AxisPlanner::path() const {
@@ -62,8 +74,7 @@ std::optional<MotionPath> AxisPlanner::path() const {
 }
 
 MotionPath AxisPlanner::solve(const Progress& progress) {
-  if (!direct_) growing_.add(std::exchange(waiting_, {}), progress);
-  direct_ = true;
+  join_ends(progress);
   while (true) {
     if (std::optional<MotionPath> found = path()) return *std::move(found);
     grow(progress);

@@ -17,7 +17,7 @@
 namespace partwise {
 
 struct AxisPlannerSettings {
-  int batch = 200;           // samples of the first batch; later ones have a quarter of what there is, if that is more
+  int batch = 100;           // samples of the first batch; later ones have a quarter of what there is, if that is more
   double free_share = 0.1;   // of plain samples
   bool only_on_axis = true;  // drop what the retractor did not bring to the axis (axis_samples.h)
   RoadmapSettings connecting{};
@@ -33,6 +33,10 @@ class AxisPlanner {
   void add_start(const Configuration& q) { starts_.push_back(add_end(q)); }
   void add_goal(const Configuration& q) { goals_.push_back(add_end(q)); }
 
+  // Starts and goals stay samples, but paths no longer begin or end there.
+  void forget_ends();
+  // Joins those that came since, to each other and to all.
+  void join_ends(const Progress& progress = {});
   // Draws a batch and joins it.
   void grow(const Progress& progress = {});
   // The best path by now, if there is one.
@@ -54,7 +58,7 @@ class AxisPlanner {
   GrowingRoadmap growing_;
   std::vector<int> starts_, goals_;
   std::vector<AxisSample> waiting_;  // ends brought to the axis, not joined yet
-  bool direct_ = false;              // whether ends were joined to each other
+  bool joined_ = true;               // all ends
   long drawn_ = 0, plain_drawn_ = 0;
 };
 
