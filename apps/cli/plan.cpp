@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "motion_pictures/path_scene.h"
 #include "options.h"
 #include "partwise/base/atomic_file.h"
 #include "partwise/motion/axis_planner.h"
@@ -18,7 +19,6 @@
 #include "partwise/motion/path_simplify.h"
 #include "partwise/motion/umaprm.h"
 #include "plan_ompl.h"
-#include "plan_pictures.h"
 #include "verbs.h"
 
 namespace partwise::cli {
@@ -180,7 +180,7 @@ void plan_file(const Options& options, Run& run) {
                        path_length(scene.space(), path), clearance.minimum, clearance.mean);
     run.stage("write", [&] {
       if (!options.path.empty()) write_file(run.outputs.staged("--path"), as_text(scene, path));
-      if (!options.glb.empty()) write_path_glb(run.outputs.staged("--glb"), problem, scene.space(), path);
+      if (!options.glb.empty()) write_meshes(run.outputs.staged("--glb"), path_scene(problem, scene.space(), path));
     });
   }
   json["seconds_plan"] = found.seconds;

@@ -9,13 +9,13 @@
 #include <string>
 
 #include "mesh_errors.h"
+#include "motion_pictures/roadmap_pictures.h"
 #include "options.h"
 #include "partwise/base/atomic_file.h"
 #include "partwise/geometry/mesh_io.h"
 #include "partwise/motion/maprm.h"
 #include "partwise/motion/margin_push.h"
 #include "partwise/motion/world.h"
-#include "roadmap_pictures.h"
 #include "verbs.h"
 
 namespace partwise::cli {
@@ -126,7 +126,7 @@ void roadmap_of_file(const Options& options, Run& run) {
   run.stage("write", [&] {
     if (!options.samples_out.empty()) write_file(run.outputs.staged("--samples-out"), as_text(found));
     if (!options.svg.empty())
-      write_roadmap_svg(run.outputs.staged("--svg"), obstacles.footprints(), found.samples, roadmap);
+      write_file(run.outputs.staged("--svg"), roadmap_svg(obstacles.footprints(), found.samples, roadmap));
     if (!options.glb.empty()) {
       const auto meshes = obstacles.mesh ? std::vector<Mesh>{*obstacles.mesh} : obstacles.problem->obstacles;
       write_roadmap_glb(run.outputs.staged("--glb"), meshes, found.samples, roadmap);

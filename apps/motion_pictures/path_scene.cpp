@@ -1,13 +1,12 @@
-#include "plan_pictures.h"
+#include "motion_pictures/path_scene.h"
 
 #include <fmt/format.h>
 
+#include "motion_pictures/roadmap_pictures.h"
 #include "partwise/appearance/palette.h"
 #include "partwise/geometry/extrude.h"
-#include "partwise/geometry/mesh_io.h"
-#include "roadmap_pictures.h"
 
-namespace partwise::cli {
+namespace partwise {
 namespace {
 
 constexpr int places = 24;
@@ -30,8 +29,8 @@ std::vector<Mesh> obstacle_meshes(const PlanningProblem& problem) {
 
 }  // namespace
 
-void write_path_glb(const std::filesystem::path& path, const PlanningProblem& problem, const ConfigurationSpace& space,
-                    const MotionPath& found) {
+std::vector<NamedMesh> path_scene(const PlanningProblem& problem, const ConfigurationSpace& space,
+                                  const MotionPath& found) {
   std::vector<NamedMesh> meshes;
   for (Mesh& each : obstacle_meshes(problem)) meshes.push_back({"obstacle", std::move(each), grey});
   for (int i = 0; i < places && !problem.robot.empty(); ++i) {
@@ -43,7 +42,7 @@ void write_path_glb(const std::filesystem::path& path, const PlanningProblem& pr
   std::vector<Eigen::Vector3d> way;
   for (const Configuration& q : found.configurations) way.push_back(space.pose(q).translation());
   meshes.push_back({"path", tube_along(way, 0.0008 * problem.bounds.diagonal().norm()), value_colour(0.8f)});
-  write_meshes(path, meshes);
+  return meshes;
 }
 
-}  // namespace partwise::cli
+}  // namespace partwise
