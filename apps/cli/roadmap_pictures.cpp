@@ -131,9 +131,19 @@ void write_roadmap_svg(const std::filesystem::path& path, const std::vector<Poly
   write_file(path, text + "</svg>\n");
 }
 
-void write_roadmap_glb(const std::filesystem::path& path, const Mesh& obstacles, const std::vector<AxisSample>& samples,
-                       const Roadmap& roadmap) {
-  const double radius = 0.0015 * bounding_sphere(obstacles).radius;
+Mesh tube_along(const std::vector<Eigen::Vector3d>& line, double radius) {
+  std::vector<Point> vertices;
+  for (std::size_t i = 1; i < line.size(); ++i) add_tube(line[i - 1], line[i], radius, vertices);
+  return tubes(vertices);
+}
+
+void write_roadmap_glb(const std::filesystem::path& path, const std::vector<Mesh>& obstacles,
+                       const std::vector<AxisSample>& samples, const Roadmap& roadmap) {
+  Eigen::AlignedBox3d box;
+  for (const Mesh& mesh : obstacles) {
+    for (const auto& vertex : mesh.vertices.rowwise()) box.extend(vertex.transpose());
+  }
+  const double radius = 0.00075 * box.diagonal().norm();
   const Levels by(samples, roadmap);
   std::vector<std::vector<Point>> vertices(levels);
   for (std::size_t e = 0; e < roadmap.edges.size(); ++e) {
@@ -142,7 +152,8 @@ void write_roadmap_glb(const std::filesystem::path& path, const Mesh& obstacles,
       add_tube(points[i - 1].head<3>(), points[i].head<3>(), radius, vertices[static_cast<std::size_t>(by.of(e))]);
     }
   }
-  std::vector<NamedMesh> meshes = {{"obstacles", obstacles}};
+  std::vector<NamedMesh> meshes;
+  for (const Mesh& mesh : obstacles) meshes.push_back({"obstacle", mesh});
   for (int level = 0; level < levels; ++level) {
     const auto& tube = vertices[static_cast<std::size_t>(level)];
     if (!tube.empty()) meshes.push_back({fmt::format("axis {}", level), tubes(tube), Levels::colour(level)});

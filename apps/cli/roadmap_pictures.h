@@ -13,8 +13,11 @@ namespace partwise::cli {
 void write_roadmap_svg(const std::filesystem::path& path, const std::vector<Polygons>& obstacles,
                        const std::vector<AxisSample>& samples, const Roadmap& roadmap);
 
+// A prism of three sides around each segment of a line.
+Mesh tube_along(const std::vector<Eigen::Vector3d>& line, double radius);
+
 // The obstacles, and the edges as thin tubes in the same colours.
-void write_roadmap_glb(const std::filesystem::path& path, const Mesh& obstacles, const std::vector<AxisSample>& samples,
-                       const Roadmap& roadmap);
+void write_roadmap_glb(const std::filesystem::path& path, const std::vector<Mesh>& obstacles,
+                       const std::vector<AxisSample>& samples, const Roadmap& roadmap);
 
 }  // namespace partwise::cli

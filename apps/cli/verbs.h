@@ -22,6 +22,7 @@ extern const Verb train_verb;
 extern const Verb edit_verb;
 extern const Verb normals_verb;
 extern const Verb roadmap_verb;
+extern const Verb plan_verb;
 
 std::span<const Verb* const> verbs();
 
