@@ -93,20 +93,18 @@ class Train(unittest.TestCase):
         self.assertEqual(other.returncode, 1)
         self.assertIn("another configuration", other.stderr)
 
-    def normals(self, architecture):
+    def normals(self, architecture, **changes):
         """A training of normals alone."""
         return self.config(f"{architecture}.json", network="normals", architecture=architecture, normal_channels=None, channels=32, parts=0.5,
-                           stages=[{"steps": STEPS, "learning_rate": 1e-3, "pixel": 20}])
+                           stages=[{"steps": STEPS, "learning_rate": 1e-3, "pixel": 20}], **changes)
 
     def test_normals_alone(self):
         for architecture in ("u", "multi_branch"):
             output = self.trained(architecture, self.normals(architecture))
             log = self.log(output)
             self.assertEqual(set(log[0]["training"]), {"loss", "normal", "pixel", "gradient", "learning_rate"})
-            again = self.config("again.json", **json.loads(self.normals(architecture).read_text()) | {"start": f"{architecture}/best.pt"})
-            self.trained(f"{architecture}_again", again)
-        refused = run("train", self.config("other.json", **json.loads(self.normals("u").read_text()) | {"start": "multi_branch/best.pt"}),
-                      "-o", self.folder / "bad")
+            self.trained(f"{architecture}_again", self.normals(architecture, start=f"{architecture}/best.pt"))
+        refused = run("train", self.normals("u", start="multi_branch/best.pt"), "-o", self.folder / "bad")
         self.assertEqual(refused.returncode, 1)
         self.assertIn("architecture", refused.stderr)
 
