@@ -126,7 +126,8 @@ class Train(unittest.TestCase):
         self.assertEqual(self.log(output), self.log(whole))
 
     def test_two_processes_learn_what_one_does(self):
-        config = self.config(dropout=0.3)
+        """Up to rounding, which Adam's first steps make much of: they are as long where a gradient is next to nothing."""
+        config = self.config(dropout=0.3, report_every=1)
         one = self.trained("one", config)
         output, port = self.folder / "two", free_port()
         processes = []
@@ -141,7 +142,8 @@ class Train(unittest.TestCase):
             self.assertEqual(alone.keys(), shared.keys())
             for group in ("training", "validation"):
                 for name, value in alone.get(group, {}).items():
-                    self.assertAlmostEqual(shared[group][name], value, delta=1e-3 * abs(value), msg=f"{alone['step']} {name}")
+                    near = 1e-5 if alone["step"] == 1 else 1e-2
+                    self.assertAlmostEqual(shared[group][name], value, delta=near * abs(value), msg=f"{alone['step']} {name}")
 
     def test_bad_configurations(self):
         cases = [({"network": "oracle"}, "network"), ({"stages": []}, "stages"), ({"stages": [{"steps": 0}]}, "stages[0].steps"),
