@@ -21,8 +21,10 @@ def edit(photo, material=None, *, masks=None, other=None, other_masks=None, ligh
     if material is not None:
         several = material if isinstance(material, (list, tuple)) else [material]
         coefficients = [_coefficients(each) for each in several]
-    from . import _editing
-
+    try:
+        from . import _editing
+    except ImportError as error:
+        raise ImportError("edit needs libtorch; build partwise with -DPARTWISE_LEARNING=ON, or install libtorch-dev") from error
     return _editing.edit(photo, masks, coefficients, other, other_masks, light, refine, weights)
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import partwise as pw
 import pytest
+from program import NOTCH
 
 VERTICES = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
 FACES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
@@ -23,17 +24,21 @@ def fail():
 
 CALLS = {
     "meshes": lambda: pw.Mesh(GRID, STRIPS).vertices.sum(),
-    "decompose": lambda: pw.decompose((VERTICES, FACES)).hulls[0].vertices,
+    "decompose": lambda: pw.decompose(NOTCHED, 0.05, measure="valley").hulls[0].vertices,
     "feature": lambda: pw.feature((VERTICES, FACES), "cvf"),
     "segment": lambda: pw.segment((VERTICES, FACES), "cvf", borders="plain"),
     "outline": lambda: pw.decompose_outline(SQUARE, 0.1).parts,
     "image": lambda: pw.tone_mapped(IMAGE, IMAGE[:, :, 0]),
     "material": lambda: pw.material("chrome").evaluate(np.tile([0.0, 0.0, 1.0], (3000, 1)), [0, 0, 1]),
     "ball": lambda: pw.material_ball(STEEL, light=LIGHT, size=4),
+    "render": lambda: pw.render((VERTICES, FACES), STEEL, light=LIGHT, size=(8, 8), samples=1, exact=True).image,
+    "roadmap": lambda: pw.roadmap(TOWN, samples=3).between,
     "normals": lambda: pw.normals_from_depth(IMAGE[:40, :40, 0] + 1, 500),
     "error": fail,
 }
+NOTCHED = pw.read_mesh(NOTCH)
 LIGHT = np.ones((4, 8, 3), np.float32)
+TOWN = pw.City([SQUARE[0], [[[x + 2, y] for x, y in SQUARE[0][0]]]])
 STEEL = pw.material("steel")
 
 
