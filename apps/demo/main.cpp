@@ -1,6 +1,7 @@
 // partwise_demo OUT_DIR: decomposes the shipped models, draws them, lets copies of them fall into a heap, and writes
-// OUT_DIR/index.html, materials.html, motion.html and, in a build with libtorch, edits.html, self-contained pages, OUT_DIR/hero.png,
-// four models, their parts and hulls in one picture, and OUT_DIR/edits.png, a picture of a car and edits of it.
+// OUT_DIR/index.html, materials.html, motion.html and, in a build with libtorch, edits.html, self-contained pages,
+// OUT_DIR/hero.png, four models, their parts and hulls in one picture, and OUT_DIR/edits.png, a picture of a car and
+// edits of it.
 
 #include <fmt/format.h>
 #include <tbb/info.h>

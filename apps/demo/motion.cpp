@@ -33,8 +33,7 @@ int nearest_sample(const std::vector<AxisSample>& samples, const Eigen::Vector2d
 }
 
 WayStory told(std::string_view name, const Scene& scene, const MotionPath& path) {
-  const PathClearance clearance = path_clearance(scene, path);
-  return {name, path_length(scene.space(), path), clearance.minimum, clearance.mean};
+  return {name, path_length(scene.space(), path), path_clearance(scene, path).minimum};
 }
 
 void tell_town(MotionStory& story) {
@@ -46,14 +45,14 @@ void tell_town(MotionStory& story) {
   const Clock::time_point start = Clock::now();
   const std::unique_ptr<Retractor> push = trained_push(scene, world.contacts);
   const AxisSamples found = axis_samples(scene, *push, sampling);
-  story.methods.push_back({"max-margin fields", seconds_since(start), found.share_on_axis(), found.distance_queries});
+  story.methods.push_back({"max-margin fields", seconds_since(start), found.share_on_axis()});
   for (const bool exact : {false, true}) {
     const Clock::time_point begin = Clock::now();
     AxisSamplesSettings all = sampling;
     all.only_on_axis = false;
     const AxisSamples peer = axis_samples(scene, Maprm(scene, {.exact = exact}), all);
-    story.methods.push_back({exact ? "MAPRM, exact distances" : "MAPRM, rays", seconds_since(begin),
-                             peer.share_on_axis(), peer.distance_queries});
+    story.methods.push_back(
+        {exact ? "MAPRM, exact distances" : "MAPRM, rays", seconds_since(begin), peer.share_on_axis()});
   }
 
   const Roadmap roadmap = connected(scene, found.samples, *push);
@@ -87,21 +86,19 @@ void tell_window(MotionStory& story) {
   PreviewScene drawn;
   for (NamedMesh& each : path_scene(problem, scene.space(), path))
     drawn.meshes.push_back({std::move(each.mesh), {}, each.colour, 20});
-  story.window =
-      make_picture(draw(drawn, 0, {.width = 900, .height = 600}),
-                   fmt::format("never nearer than {:.2f} to a wall; the stick is 0.4 wide, the window 1",
-                               path_clearance(scene, path).minimum),
-                   "A stick, drawn at places along its way, turns and passes a window in a wall");
+  story.window = make_picture(draw(drawn, 0, {.width = 900, .height = 600}),
+                              fmt::format("never nearer than {:.2f} to a wall; the stick is 0.4 wide, the window 1",
+                                          path_clearance(scene, path).minimum),
+                              "A stick, drawn at places along its way, turns and passes a window in a wall");
 }
 
 std::string methods_table(const std::vector<AxisStory>& methods) {
   std::string html =
       "<table>\n<thead><tr><th scope=\"col\">method</th><th scope=\"col\">time</th><th scope=\"col\">on the axis</th>"
-      "<th scope=\"col\">distance queries</th></tr></thead>\n<tbody>\n";
+      "</tr></thead>\n<tbody>\n";
   for (const AxisStory& each : methods) {
-    html += fmt::format("<tr><th scope=\"row\">{}</th><td>{:.2f} <small>s</small></td><td>{:.1f} %</td><td>{}</td></tr>\n",
-                        each.name, each.seconds, 100 * each.on_axis,
-                        thousands(static_cast<std::uint64_t>(each.distance_queries)));
+    html += fmt::format("<tr><th scope=\"row\">{}</th><td>{:.2f} <small>s</small></td><td>{:.1f} %</td></tr>\n",
+                        each.name, each.seconds, 100 * each.on_axis);
   }
   return html + "</tbody>\n</table>\n";
 }
@@ -109,12 +106,11 @@ std::string methods_table(const std::vector<AxisStory>& methods) {
 std::string ways_table(const std::vector<WayStory>& ways) {
   std::string html =
       "<table>\n<thead><tr><th scope=\"col\">way</th><th scope=\"col\">length</th><th scope=\"col\">narrowest</th>"
-      "<th scope=\"col\">room, mean</th></tr></thead>\n<tbody>\n";
+      "</tr></thead>\n<tbody>\n";
   for (const WayStory& each : ways) {
     html += fmt::format(
-        "<tr><th scope=\"row\">{}</th><td>{:.0f} <small>m</small></td><td>{:.2f} <small>m</small></td><td>{:.1f} "
-        "<small>m</small></td></tr>\n",
-        each.name, each.length, each.clearance, each.mean_clearance);
+        "<tr><th scope=\"row\">{}</th><td>{:.0f} <small>m</small></td><td>{:.2f} <small>m</small></td></tr>\n",
+        each.name, each.length, each.clearance);
   }
   return html + "</tbody>\n</table>\n";
 }
@@ -147,8 +143,10 @@ the robot would touch, tell two obstacles apart; where they cannot decide runs t
       "%; those of max-margin fields are checked, others are thrown away.</p>\n",
       thousands(static_cast<std::uint64_t>(story.samples)));
   html += methods_table(story.methods);
-  html += "<p>From corner to corner: the path with the smallest length over clearance, the same shortened so that it "
-          "keeps nine tenths of its smallest clearance, and the shortest.</p>\n";
+  html +=
+      "<h3>From corner to corner</h3>\n<p>The path with the smallest length over clearance, the same shortened so that "
+      "it "
+      "keeps nine tenths of its smallest clearance, and the shortest.</p>\n";
   html += ways_table(story.ways) + R"(</section>
 <section>
 <h2>Robots with a body</h2>

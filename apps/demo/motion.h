@@ -12,12 +12,11 @@ namespace demo {
 struct AxisStory {  // of one method
   std::string_view name;
   double seconds = 0, on_axis = 0;  // of the samples, a share
-  long distance_queries = 0;
 };
 
 struct WayStory {
   std::string_view name;
-  double length = 0, clearance = 0, mean_clearance = 0;  // metres
+  double length = 0, clearance = 0;  // metres, the smallest
 };
 
 struct MotionStory {

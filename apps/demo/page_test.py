@@ -173,14 +173,14 @@ class Page(unittest.TestCase):
     def test_the_page_of_motion(self):
         for seen in self.looks_at(motion_path):
             self.assertEqual(seen["images"], 2)
-            # time, share on the axis and queries of three methods; length, narrowest place and room of three ways
+            # time and share on the axis of three methods; length and narrowest place of three ways
             figures = [float(text.replace("\u202f", "").split()[0]) for text in seen["facts"]]
-            self.assertEqual(len(figures), 18)
+            self.assertEqual(len(figures), 12)
             self.assertEqual(figures[1], 100)
-            kept, shortened = figures[10], figures[13]
+            (length, kept), (shorter, shortened) = figures[6:8], figures[8:10]
             self.assertGreater(kept, 0)
             self.assertGreaterEqual(shortened, 0.88 * kept)
-            self.assertLess(figures[12], figures[9])  # shortened is shorter
+            self.assertLess(shorter, length)
 
     @unittest.skipIf(len(pages) < 4, "built without libtorch")
     def test_the_page_of_edits(self):
