@@ -32,7 +32,7 @@ struct Found {
 };
 
 Found found_in(const EditingNetworks& networks, const Photo& photo, bool refine, const Progress& progress) {
-  Found found{.layers = read_layers(networks, photo, {.refine = refine}, progress), .materials = {}};
+  Found found{.layers = read_layers(networks, photo, {.refine = refine, .refinement = {}}, progress), .materials = {}};
   const at::Tensor rows = networks.range().coefficients(found.layers.found.material);
   for (std::int64_t i = 0; i < rows.size(0); ++i) found.materials.push_back(as_material(rows[i]));
   return found;
@@ -76,7 +76,6 @@ Edit edit(const py::object& given, const py::object& masks, const std::optional<
     found = found_in(networks, photo, refine, progress);
     return edited(photo, found.layers, wanted, new_light);
   });
-  const auto regions = static_cast<py::ssize_t>(found.materials.size());
   return {.image = image_out(std::move(result)),
           .normals = normals_out(found.layers.found.normals),
           .light = image_out(light_of(found.layers).radiance()),
