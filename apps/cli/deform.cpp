@@ -78,7 +78,7 @@ Action add(CLI::App& command) {
   const auto options = std::make_shared<Options>();
   add_mesh(command, options->mesh);
   add_file(command, "CAGE", options->cage, "A closed mesh around it, as partwise cage writes it")->required();
-  add_file(command, "MOVES", options->moves, "What happens to the vertices of the cage (.json, docs/deform.md)")
+  add_file(command, "MOVES", options->moves, "What happens to the vertices of the cage (.json, docs/cage.md)")
       ->required();
   add_file(command, "-o,--output", options->deformed, "Write the deformed mesh (.obj, .off, .ply, .stl or .glb)")
       ->required();
@@ -100,7 +100,7 @@ const Verb deform_verb = {
         "coordinates or by mean value coordinates.",
     .example =
         "  partwise cage horse.ply -o horse_cage.obj\n"
-        "  echo '{\"handles\": [{\"near\": [0, 1, 0], \"within\": 0.5, \"move\": [0, 0.2, 0]}]}' > moves.json\n"
+        "  echo '{\"handles\": [{\"near\": [0, 170, 120], \"within\": 60, \"move\": [0, 40, 0]}]}' > moves.json\n"
         "  partwise deform horse.ply horse_cage.obj moves.json -o stretched_horse.obj",
     .add = add,
 };

@@ -58,7 +58,7 @@ void repair_file(const Options& options, Run& run) {
   }
   run.stage("write", [&] {
     write_mesh(run.outputs.staged("--output"), result.mesh);
-    if (!options.png.empty()) write_picture(run.outputs.staged("--png"), PreviewMesh{.mesh = result.mesh});
+    if (!options.png.empty()) write_picture(run.outputs.staged("--png"), PreviewMesh{result.mesh, {}});
   });
   run.report["input"] = options.mesh;
   const std::string written = run.report_files({{"output", options.repaired}, {"png", options.png}});

@@ -74,7 +74,7 @@ void sample_block(const std::vector<Planes>& hulls, double level, double farthes
 }
 
 SampleGrid sampled(std::span<const Mesh> hulls, const ContourSettings& settings) {
-  const double level = settings.distance, spacing = settings.spacing, seal = settings.seal;
+  const double level = settings.distance, spacing = settings.spacing, seal = std::max(settings.seal, settings.doubt);
   Point low = hulls[0].vertices.colwise().minCoeff(), high = hulls[0].vertices.colwise().maxCoeff();
   for (const Mesh& hull : hulls) {
     low = low.cwiseMin(hull.vertices.colwise().minCoeff());
@@ -104,6 +104,27 @@ SampleGrid sampled(std::span<const Mesh> hulls, const ContourSettings& settings)
   return grid;
 }
 
+// Makes inside what lies between the hulls and is solid; see ContourSettings.
+void fill_solid(SampleGrid& grid, const ContourSettings& settings) {
+  const std::vector<bool> outside = reached_from_outside(grid, settings.doubt);
+  std::vector<char> solid(grid.values.size());
+  tbb::parallel_for(0, grid.size[2], [&](int k) {
+    for (int j = 0; j < grid.size[1]; ++j)
+      for (int i = 0; i < grid.size[0]; ++i) {
+        const std::size_t index = grid.index(i, j, k);
+        if (outside[index]) continue;
+        solid[index] = grid.values[index] < 0 || settings.is_solid(grid.low + grid.spacing * Point(i, j, k));
+      }
+  });
+  const std::size_t steps[] = {grid.index(1, 0, 0), grid.index(0, 1, 0), grid.index(0, 0, 1)};
+  for (std::size_t index = steps[2]; index + steps[2] < solid.size(); ++index) {
+    if (outside[index] || grid.values[index] < 0) continue;
+    int votes = solid[index];
+    for (const std::size_t step : steps) votes += solid[index - step] + solid[index + step];
+    if (votes >= 4) grid.values[index] = -1e-6f;
+  }
+}
+
 }  // namespace
 
 Mesh hull_contour(std::span<const Mesh> hulls, const ContourSettings& settings) {
@@ -113,9 +134,12 @@ Mesh hull_contour(std::span<const Mesh> hulls, const ContourSettings& settings) 
     if (!(length > 0 && std::isfinite(length)))
       throw InputError(name, fmt::format("{} is not a length", length), "give a positive number");
   }
-  if (!(settings.seal >= 0 && std::isfinite(settings.seal)))
-    throw InputError("seal", fmt::format("{} is not a length", settings.seal), "give 0 or a positive number");
+  for (const auto& [name, length] : {std::pair("seal", settings.seal), std::pair("doubt", settings.doubt)}) {
+    if (!(length >= 0 && std::isfinite(length)))
+      throw InputError(name, fmt::format("{} is not a length", length), "give 0 or a positive number");
+  }
   SampleGrid grid = sampled(hulls, settings);
+  if (settings.is_solid) fill_solid(grid, settings);
   fill_hollows(grid, settings.seal);
   return marching_cubes(grid);
 }

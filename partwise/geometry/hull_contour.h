@@ -15,9 +15,10 @@
 // The same bytes for any number of threads. Time O(blocks of the grid times facets) and O(grid).
 //
 // Hulls must be closed, convex, counter-clockwise from outside. Lengths in model units. Errors: InputError for no hull,
-// a distance or spacing that is not positive, a negative seal, and a grid of more than 2^27 samples.
+// a distance or spacing that is not positive, a negative seal or doubt, and a grid of more than 2^27 samples.
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "partwise/geometry/mesh.h"
@@ -28,6 +29,10 @@ struct ContourSettings {
   double distance = 0;
   double spacing = 0;  // of the grid
   double seal = 0;     // half the width beyond 2 x distance of gaps to be closed
+  // What else is solid, asked only of places between the hulls that are reached through gaps narrower than twice
+  // distance + doubt alone, and believed where more than half of seven neighbouring samples agree. May run in parallel.
+  std::function<bool(const Point&)> is_solid{};
+  double doubt = 0;
 };
 
 Mesh hull_contour(std::span<const Mesh> hulls, const ContourSettings& settings);

@@ -176,7 +176,7 @@ class Builder {
 
 }  // namespace
 
-void fill_hollows(SampleGrid& grid, double seal) {
+std::vector<bool> reached_from_outside(const SampleGrid& grid, double seal) {
   std::vector<bool> outside(grid.values.size());
   std::vector<std::array<int, 3>> front{{0, 0, 0}}, reached;
   outside[0] = true;
@@ -206,6 +206,11 @@ void fill_hollows(SampleGrid& grid, double seal) {
     for (const auto& at : reached) spread(at, 0, next);
     reached = std::move(next);
   }
+  return outside;
+}
+
+void fill_hollows(SampleGrid& grid, double seal) {
+  const std::vector<bool> outside = reached_from_outside(grid, seal);
   for (std::size_t i = 0; i < outside.size(); ++i)
     if (!outside[i]) grid.values[i] = std::min(grid.values[i], -1e-6f);
 }

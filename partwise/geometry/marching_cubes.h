@@ -22,9 +22,12 @@ struct SampleGrid {
   }
 };
 
-// Makes inside what cannot be reached from the border along the grid's lines without passing an inside sample. With
-// `seal`, a length, what can be reached only through gaps, where values are nowhere above seal, is made inside too, but
-// for the first two seals of the way.
+// Which samples can be reached from the border along the grid's lines without passing an inside sample. With `seal`, a
+// length, what can be reached only through gaps, where values are nowhere above seal, is left out, but for the first
+// two seals of the way.
+std::vector<bool> reached_from_outside(const SampleGrid& grid, double seal = 0);
+
+// Makes inside what is not reached.
 void fill_hollows(SampleGrid& grid, double seal = 0);
 
 // Crossings are interpolated along the grid's lines and keep 1/20 spacing from the samples.

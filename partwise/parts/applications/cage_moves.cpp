@@ -102,7 +102,7 @@ void apply(JsonFields& fields, const Vertices& rest, Vertices& vertices) {
 }  // namespace
 
 Vertices read_cage_moves(const std::filesystem::path& path, const Mesh& cage) {
-  const std::string page = "docs/deform.md";
+  const std::string page = "docs/cage.md";
   const json whole = json::parse(read_bytes(path), nullptr, false);
   if (whole.is_discarded()) throw InputError(path.string(), "is not JSON", "check brackets, quotes and commas");
   JsonFields fields(path.string(), "", whole, page);

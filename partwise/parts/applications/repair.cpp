@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "partwise/base/error.h"
@@ -19,10 +21,12 @@ namespace {
 
 // Where the tolerance goes: to the expansion, and to the hulls what remains of this share of it.
 constexpr double for_both = 0.9, for_expansion = 0.125;
-constexpr double least_expansion = 0.01;                  // a share of R: finer grids cost more than they show
-constexpr double seals[] = {0.5, 0.375, 0.25, 0.125, 0};  // shares of the tolerance, tried in turn
-constexpr double precision = 2e-3;                        // of distances, a share of R
-constexpr int samples = 48;  // along the longest side of the box that both solids share, for volumes
+constexpr double least_expansion = 0.01;    // a share of R: finer grids cost more than they show
+constexpr double seals[] = {0.5, 0.25, 0};  // shares of the tolerance, tried in turn
+constexpr double doubt = 0.1;  // a share of R: through gaps narrower than twice that the outside is not believed
+constexpr double open_winding = 0.25;  // about half of what a mesh without half of its faces has inside
+constexpr double precision = 2e-3;     // of distances, a share of R
+constexpr int samples = 48;            // along the longest side of the box that both solids share, for volumes
 
 void check(const RepairSettings& settings) {
   if (!(settings.tolerance >= 0.03 && settings.tolerance <= 1))
@@ -44,15 +48,23 @@ Repair repair(const Mesh& mesh, const RepairSettings& settings, const Progress& 
   result.radius = parts.radius;
   result.seconds = parts.seconds;
   const SurfaceQuery given(mesh);
-  ContourSettings contour{.distance = expansion * parts.radius, .spacing = expansion * parts.radius};
+  // Open meshes show less than a whole number: of the directions from inside, those that no face is missing from.
+  const double least_winding = parts.watertight ? 0.5 : open_winding;
+  ContourSettings contour{.distance = expansion * parts.radius,
+                          .spacing = expansion * parts.radius,
+                          .is_solid = [&](const Point& p) { return given.winding_number(p) > least_winding; },
+                          .doubt = doubt * parts.radius};
+  result.reach = std::numeric_limits<double>::infinity();
   for (const double seal : seals) {
     contour.seal = seal * settings.tolerance * parts.radius;
-    result.mesh = simplify_outwards(hull_contour(parts.hulls, contour), settings.max_faces);
+    Mesh skin = simplify_outwards(hull_contour(parts.hulls, contour), settings.max_faces);
+    const auto to_given = [&](const Point& p) { return given.distance(p); };
+    const double reach = farthest_point(skin, to_given, precision * parts.radius) / parts.radius;
+    if (reach >= result.reach) continue;
+    result.mesh = std::move(skin);
     result.seal = seal * settings.tolerance;
-    result.reach = farthest_point(
-                       result.mesh, [&](const Point& p) { return given.distance(p); }, precision * parts.radius) /
-                   parts.radius;
-    if (result.reach <= settings.tolerance) break;
+    result.reach = reach;
+    if (reach <= settings.tolerance) break;
   }
   PARTWISE_CHECK(is_watertight(result.mesh), ==, true);
   result.seconds["skin"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

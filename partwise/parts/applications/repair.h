@@ -6,9 +6,11 @@
 // coarse as the tolerance.
 //
 // Promise: watertight, and all faces that were there lie inside. Hulls and expansion take 0.9 of the tolerance. Gaps
-// between hulls are sealed as wide as the tolerance, or less where the result would stray too far. `reach`, the largest
-// distance of the result from the given surface, is certified: at most the tolerance but for what simplifying adds, so
-// whoever needs the bound looks.
+// between hulls are sealed as wide as the tolerance, or less where the result would stray too far. The hulls of an open
+// mesh are a crust where it is thicker than the tolerance; what lies in it is filled where most directions meet the
+// surface from inside, or nearly half of them, if faces are missing. `reach`, the largest distance of the result from
+// the given surface, is certified. Where more is missing than the tolerance bridges, the crust leaks and reach exceeds
+// the tolerance: whoever needs the bound looks.
 //
 // With a reference, the intact mesh, what was lost and added is measured: distances as certified upper bounds, volumes
 // on a grid of some 10^5 points. The same bytes for any number of threads. Errors: those of decompose(); InputError for
