@@ -604,6 +604,96 @@ class Medial(CommandLine):
         self.assert_files()
 
 
+class Applications(CommandLine):
+    """cage, deform, repair, unfold."""
+
+    HORSE = DATA / "models" / "horse.ply"
+
+    def vertices(self, name):
+        lines = (self.folder / name).read_text().splitlines()
+        return [tuple(map(float, line.split()[1:4])) for line in lines if line.startswith("v ")]
+
+    def write_moves(self, *handles):
+        (self.folder / "moves.json").write_text(json.dumps({"handles": handles}))
+
+    def test_a_cage_encloses_and_has_few_faces(self):
+        for threads in (1, 2):
+            result = self.run_program("cage", self.HORSE, "-o", f"{threads}.obj", "--json", "-", "--threads", threads)
+            self.assert_done(result)
+        self.assertEqual((self.folder / "1.obj").read_bytes(), (self.folder / "2.obj").read_bytes())
+        report = json.loads(result.stdout)
+        self.assertLessEqual(report["faces"], 300)
+        self.assertTrue(report["encloses"] and report["watertight"])
+        self.assertGreater(report["parts"], 1)
+
+    def test_a_cage_deforms(self):
+        self.assert_done(self.run_program("cage", NOTCH, "-o", "cage.obj", "--png", "cage.png"))
+        Picture(self.folder / "cage.png")
+        self.write_moves()
+        self.assert_done(self.run_program("deform", NOTCH, "cage.obj", "moves.json", "-o", "still.obj"))
+        self.write_moves({"all": True, "scale": [1, 2, 0.5], "about": [0, 0, 0], "move": [1, 0, 0]})
+        result = self.run_program("deform", NOTCH, "cage.obj", "moves.json", "-o", "affine.obj", "--cage", "moved.obj",
+                                  "--coordinates", "mean-value", "--json", "-")
+        self.assert_done(result)
+        self.assertLess(json.loads(result.stdout)["identity_error"], 1e-12)
+        for still, moved in zip(self.vertices("still.obj"), self.vertices("affine.obj"), strict=True):
+            for a, b in zip((still[0] + 1, 2 * still[1], still[2] / 2), moved):
+                self.assertAlmostEqual(a, b, delta=1e-9)
+        self.assertEqual(len(self.vertices("cage.obj")), len(self.vertices("moved.obj")))
+
+    def test_what_deform_refuses(self):
+        self.assert_done(self.run_program("cage", NOTCH, "-o", "cage.obj"))
+        self.write_moves({"vertices": [100000], "move": [0, 0, 1]})
+        before = sorted(p.name for p in self.folder.iterdir())
+        deform = ["deform", NOTCH, "cage.obj", "moves.json", "-o", "a.obj"]
+        self.assert_refused(self.run_program(*deform), 1, "moves.json", "handles[0].vertices", "100000")
+        self.write_moves()
+        self.assert_refused(self.run_program("deform", "cage.obj", NOTCH, "moves.json", "-o", "a.obj"), 1, "cage.obj",
+                            "is not inside")
+        self.assert_refused(self.run_program(*deform, "--coordinates", "harmonic"), 2, "--coordinates", "green")
+        self.assert_refused(self.run_program(*deform[:3], "-o", "a.obj"), 2, "MOVES")
+        self.assert_refused(self.run_program(*deform[:5], "cage.obj"), 2, "same file")
+        (self.folder / "open.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+        self.assert_refused(self.run_program("deform", NOTCH, "open.off", "moves.json", "-o", "a.obj"), 1, "open.off",
+                            "is not closed")
+        self.assert_files(*before, "open.off")
+
+    def test_a_broken_mesh_is_repaired(self):
+        lines = NOTCH.read_text().splitlines()
+        faces = [line for line in lines if line.startswith("f ")]
+        gone = set(faces[::9])
+        (self.folder / "broken.obj").write_text("\n".join(line for line in lines if line not in gone))
+        result = self.run_program("repair", "broken.obj", "-o", "whole.obj", "--reference", NOTCH, "--json", "-")
+        self.assert_done(result)
+        report = json.loads(result.stdout)
+        self.assertTrue(report["watertight"])
+        self.assertLessEqual(report["reach"], 0.4)
+        for field in ("added", "lost", "volume_added", "volume_lost"):
+            self.assertIn(field, report)
+        again = self.run_program("decompose", "whole.obj", "--tolerance", "0.2", "--json", "-")
+        self.assertTrue(json.loads(again.stdout)["watertight"])
+        self.assert_refused(self.run_program("repair", NOTCH, "-o", "b.obj", "--reference", "broken.obj"), 1,
+                            "broken.obj", "not watertight")
+        self.assert_refused(self.run_program("repair", NOTCH, "-o", "b.obj", "--tolerance", "0.001"), 1, "tolerance")
+
+    def test_nets_are_drawn(self):
+        result = self.run_program("unfold", self.HORSE, "-o", "a.svg", "--pdf", "a.pdf", "--hulls", "a.obj", "--json", "-")
+        self.assert_done(result)
+        report = json.loads(result.stdout)
+        self.assertEqual(report["overlaps"], 0)
+        self.assertGreaterEqual(report["nets"], report["parts"])
+        self.assertLess(report["refolding_error"], 1e-6)
+        svg = (self.folder / "a.svg").read_text()
+        self.assertEqual(svg.count("<rect "), report["pages"])
+        self.assertEqual(len(re.findall(r">part \d+<", svg)), report["nets"])
+        pdf = (self.folder / "a.pdf").read_bytes()
+        self.assertTrue(pdf.startswith(b"%PDF-1.4\n") and pdf.endswith(b"%%EOF\n"))
+        self.assertIn(b"/Count %d " % report["pages"], pdf)
+        self.assert_files("a.svg", "a.pdf", "a.obj")
+        self.assert_refused(self.run_program("unfold", NOTCH, "-o", "b.pdf"), 2, ".svg")
+        self.assert_refused(self.run_program("unfold", NOTCH, "-o", "b.svg", "--scale", "1e6"), 1, "scale", "page")
+
+
 class Outline(CommandLine):
     """The verbs for shapes in the plane."""
 

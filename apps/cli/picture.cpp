@@ -1,8 +1,10 @@
 #include "picture.h"
 
 #include <Eigen/Geometry>
+#include <span>
 #include <utility>
 
+#include "partwise/geometry/topology.h"
 #include "partwise/imaging/png.h"
 
 namespace partwise::cli {
@@ -27,12 +29,17 @@ void bring_near(PreviewScene& scene) {
     for (const auto& point : points.rowwise()) box.extend(point.transpose());
   };
   for (const PreviewMesh& mesh : scene.meshes) add(mesh.mesh.vertices);
+  for (const PreviewCurve& curve : scene.curves) add(curve.points);
   for (const PreviewPoints& points : scene.points) add(points.points);
   const Point centre = (box.min() / 2 + box.max() / 2).transpose();
   const double half = (box.max() / 2 - box.min() / 2).maxCoeff();
   const double unit = half > 0 ? half : 1;
   const auto move = [&](Vertices& points) { points = (points.rowwise() - centre) / unit; };
   for (PreviewMesh& mesh : scene.meshes) move(mesh.mesh.vertices);
+  for (PreviewCurve& curve : scene.curves) {
+    move(curve.points);
+    curve.radius /= unit;
+  }
   for (PreviewPoints& points : scene.points) {
     move(points.points);
     points.radius /= unit;
@@ -62,6 +69,18 @@ void write_picture(const std::filesystem::path& path, std::vector<PreviewPoints>
   PreviewScene scene;
   scene.points = std::move(points);
   scene.ground = false;
+  write_scene(path, std::move(scene));
+}
+
+void write_cage_picture(const std::filesystem::path& path, const Mesh& mesh, const Mesh& cage) {
+  PreviewScene scene;
+  scene.meshes.push_back({.mesh = mesh, .colour = Eigen::Vector3f(0.75f, 0.42f, 0.16f)});
+  forget_unused(scene.meshes[0].mesh);
+  const double thickness = 0.004 * bounding_sphere(cage).radius;
+  for_each_edge(sorted_half_edges(cage), [&](std::span<const HalfEdge> edge) {
+    const std::vector<int> ends{edge[0].low, edge[0].high};
+    scene.curves.push_back({cage.vertices(ends, Eigen::all), thickness, Eigen::Vector3f(0.05f, 0.12f, 0.3f)});
+  });
   write_scene(path, std::move(scene));
 }
 

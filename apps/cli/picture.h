@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "partwise/appearance/preview.h"
+#include "partwise/geometry/mesh.h"
 
 namespace partwise::cli {
 
@@ -12,5 +13,8 @@ namespace partwise::cli {
 // picture is empty.
 void write_picture(const std::filesystem::path& path, PreviewMesh mesh);
 void write_picture(const std::filesystem::path& path, std::vector<PreviewPoints> points);
+
+// The mesh inside the edges of its cage.
+void write_cage_picture(const std::filesystem::path& path, const Mesh& mesh, const Mesh& cage);
 
 }  // namespace partwise::cli
