@@ -33,6 +33,11 @@ std::vector<at::Tensor> regions_of(const at::Tensor& parts, bool apart) {
   return regions;
 }
 
+// All under one light.
+at::Tensor maps_of(const at::Tensor& materials, const at::Tensor& radiance, int map_size) {
+  return reflectance_maps(materials, radiance.expand({materials.size(0), -1, -1, -1}), map_size);
+}
+
 }  // namespace
 
 EditCases::EditCases(const StoredViews& views, const std::vector<DsbrdfCoefficients>& materials,
@@ -63,26 +68,33 @@ EditCase EditCases::operator()(int number) const {
   result.materials = stacked(0);
   result.targets = stacked(count);
 
-  const auto image = [&](const at::Tensor& materials) {
-    return image_of_regions(result.normals, result.regions, materials, result.radiance, settings_.map_size);
-  };
+  result.maps = maps_of(result.materials, result.radiance, settings_.map_size);
   const at::Tensor mask = (result.normals.square().sum(1, true) > 0).to(at::kFloat);
-  result.image = image(result.materials);
-  result.target = image(result.targets);
+  result.image = image_of_maps(result.normals, result.regions, result.maps, settings_.map_size);
+  if (settings_.targets)
+    result.target =
+        image_of_regions(result.normals, result.regions, result.targets, result.radiance, settings_.map_size);
   const float exposure = exposure_by_median(image_of(result.image[0]), image_of(mask[0]));
-  for (at::Tensor* each : {&result.image, &result.target, &result.radiance}) each->mul_(exposure);
+  for (at::Tensor* each : {&result.image, &result.target, &result.radiance, &result.maps}) {
+    if (each->defined()) each->mul_(exposure);
+  }
   result.picture = at::cat({display_values(result.image).clamp_max(1) * mask, mask}, 1);
   return result;
 }
 
-at::Tensor image_of_regions(const at::Tensor& normals, const std::vector<at::Tensor>& regions,
-                            const at::Tensor& materials, const at::Tensor& radiance, int map_size) {
+at::Tensor image_of_maps(const at::Tensor& normals, const std::vector<at::Tensor>& regions, const at::Tensor& maps,
+                         int map_size) {
   at::Tensor image = at::zeros_like(normals);
   for (std::size_t i = 0; i < regions.size(); ++i) {
-    const at::Tensor material = materials.narrow(0, static_cast<std::int64_t>(i), 1);
-    image = image + mapped_images(normals * regions[i], material, radiance, map_size);
+    const at::Tensor map = maps.narrow(0, static_cast<std::int64_t>(i), 1);
+    image = image + looked_up_images(normals * regions[i], map, map_size);
   }
   return image;
+}
+
+at::Tensor image_of_regions(const at::Tensor& normals, const std::vector<at::Tensor>& regions,
+                            const at::Tensor& materials, const at::Tensor& radiance, int map_size) {
+  return image_of_maps(normals, regions, maps_of(materials, radiance, map_size), map_size);
 }
 
 }  // namespace partwise::bench

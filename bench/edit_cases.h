@@ -20,6 +20,7 @@ struct EditCase {
   at::Tensor normals;               // 1 x 3 x S x S
   at::Tensor radiance;              // 1 x 3 x 64 x 128
   at::Tensor materials, targets;    // R x 108, coefficients: what is worn, and what is to be worn
+  at::Tensor maps;                  // R x 3 x T: what the image was looked up in (learning/rendering_layer.h)
   at::Tensor image, target;         // 1 x 3 x S x S, linear: in either
 
   at::Tensor mask() const { return picture.narrow(1, 3, 1); }
@@ -29,6 +30,7 @@ struct EditCaseSettings {
   std::uint64_t seed = 1;
   int map_size = 64;  // of reflectance maps
   bool parts = false;
+  bool targets = true;  // rendered as well
 };
 
 class EditCases {
@@ -44,6 +46,10 @@ class EditCases {
   std::vector<EnvironmentLight> lights_;
   EditCaseSettings settings_;
 };
+
+// Each region looked up in its map: 1 x 3 x S x S, linear.
+at::Tensor image_of_maps(const at::Tensor& normals, const std::vector<at::Tensor>& regions, const at::Tensor& maps,
+                         int map_size);
 
 // Each region in its material: 1 x 3 x S x S, linear.
 at::Tensor image_of_regions(const at::Tensor& normals, const std::vector<at::Tensor>& regions,

@@ -14,7 +14,6 @@
 // Exits 0, 1 when it cannot be done, 2 for wrong usage.
 #include <ATen/Functions.h>
 #include <ATen/TensorOperators.h>
-#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
@@ -25,19 +24,17 @@
 #include <vector>
 
 #include "bench/edit_cases.h"
+#include "bench/picture_difference.h"
 #include "bench/tool.h"
 #include "partwise/appearance/material/material_files.h"
 #include "partwise/editing/editing_networks.h"
 #include "partwise/editing/encoder_decoder.h"
-#include "partwise/editing/image_tensors.h"
 #include "partwise/editing/refinement.h"
-#include "partwise/imaging/image_metrics.h"
-#include "partwise/imaging/tone_mapping.h"
 
 namespace {
 
 using namespace partwise;
-using bench::EditCase;
+using bench::difference, bench::EditCase;
 using nlohmann::ordered_json;
 
 struct Options {
@@ -48,26 +45,6 @@ struct Options {
   bool given = false, known_normals = false, refine = false;
   RefinementSettings refinement;
 };
-
-ordered_json difference(const Image& image, const Image& truth, const Image& object) {
-  const ImageDifference inside = compare_images(image, truth, object), whole = compare_images(image, truth);
-  ordered_json json = {{"l2", inside.squared_error}};
-  if (inside.ssim) json["ssim"] = *inside.ssim;
-  json["l2_frame"] = whole.squared_error;
-  json["ssim_frame"] = *whole.ssim;
-  return json;
-}
-
-// Each image exposed by itself; and, as how bright light and material are is not to be told apart, what it comes to
-// with one exposure for both.
-ordered_json difference(const at::Tensor& image, const at::Tensor& truth, const at::Tensor& mask) {
-  const Image found = image_of(image[0].clamp_min(0)), wanted = image_of(truth[0]), object = image_of(mask[0]);
-  const float exposure = exposure_by_median(wanted, object);
-  const Image shown = tone_map(wanted, exposure);
-  ordered_json json = difference(tone_map(found, exposure_by_median(found, object)), shown, object);
-  json["same_exposure"] = difference(tone_map(found, exposure), shown, object);
-  return json;
-}
 
 // Mean over the regions.
 double material_error(const at::Tensor& scaled, const EditCase& truth, const MaterialRange& range) {

@@ -28,6 +28,10 @@ TEST = {"kator": ["VW-new-beetle", "office-chair", "mid-century-sofa", "apple-im
 VALIDATION = {"scopia": ["smart-car", "truck", "office_chair", "simple_sofa"], "zero": ["couch2", "winchesterSofa"], "by": ["couch3", "dafTruck"]}
 ALSO_UNSEEN = {"by": ["sofa2"]}  # is called as one of the test shapes is
 
+# Of which shapes, how many, and their parts.
+VIEWS = {"training": ("training", 6000, "whole"), "cars": ("cars", 2000, "whole"), "validation": ("validation", 200, "whole"),
+         "test": ("test", 600, "whole"), "test_parts": ("test", 600, "components")}
+
 # Training meets neither the twenty test materials nor these: lobby, night, sunrise, venice.
 LIGHTS = ["studio", "city", "park", "sky", "hall", "dawn", "esplanade", "forest", "warehouse", "apartment"]
 
@@ -94,15 +98,16 @@ def kept_back(name):
     return [each for shapes_of in (TEST, VALIDATION, ALSO_UNSEEN) for each in shapes_of.get(name, [])]
 
 
-def make_views(options):
-    training = {name: {"except": kept_back(name)} if kept_back(name) else {} for name in ARCHIVES}
-    cars = {name: {"categories": ["Vehicles"], "except": kept_back(name)}
-            for name in ("zero", "by", "kator", "scopia")}
+def chosen_shapes():
     only = {which: {name: {"ids": ids} for name, ids in shapes_of.items()} for which, shapes_of in (("validation", VALIDATION), ("test", TEST))}
-    for name, chosen, count, parts in (("training", training, 6000, "whole"), ("cars", cars, 2000, "whole"),
-                                       ("validation", only["validation"], 200, "whole"), ("test", only["test"], 600, "whole"),
-                                       ("test_parts", only["test"], 600, "components")):
-        config = {"shapes": shapes(options, chosen), "parts": parts, "materials": "training", "lights": ["studio"],
+    return {"training": {name: {"except": kept_back(name)} if kept_back(name) else {} for name in ARCHIVES},
+            "cars": {name: {"categories": ["Vehicles"], "except": kept_back(name)} for name in ("zero", "by", "kator", "scopia")}} | only
+
+
+def make_views(options, sets):
+    """`sets`: name to which of the chosen shapes, how many views, and what their parts are."""
+    for name, (which, count, parts) in sets.items():
+        config = {"shapes": shapes(options, chosen_shapes()[which]), "parts": parts, "materials": "training", "lights": ["studio"],
                   "light_size": [16, 8], "map_size": 16, "samples": 4, "format": "png", "views": 1,
                   "images": count, "images_per_shard": 500}
         folder = options.out / "views"
@@ -142,7 +147,7 @@ def train(options, name):
 
 def main(words):
     options = parse(words)
-    make_views(options)
+    make_views(options, VIEWS)
     for name in options.networks or NETWORKS:
         train(options, name)
     return 0

@@ -8,6 +8,6 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/PartwiseConfig.cmake.in 
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/PartwiseConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/PartwiseConfig.cmake ${PROJECT_BINARY_DIR}/PartwiseConfigVersion.cmake
         DESTINATION ${PARTWISE_INSTALL_CMAKE})
-install(DIRECTORY data DESTINATION ${PARTWISE_INSTALL_SHARE} PATTERN "*corpus" EXCLUDE)  # these are for tests only
-install(DIRECTORY models DESTINATION ${PARTWISE_INSTALL_SHARE})
+install(DIRECTORY data DESTINATION ${PARTWISE_INSTALL_SHARE} COMPONENT shared PATTERN "*corpus" EXCLUDE)  # these are for tests only
+install(DIRECTORY models DESTINATION ${PARTWISE_INSTALL_SHARE} COMPONENT shared)
 install(FILES LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -18,7 +18,9 @@ inline constexpr LearningVerb train_line = {"train",
 inline constexpr LearningVerb edit_line = {"edit",
                                            "One photo of an object in, the same object in another material out"};
 
-inline constexpr std::array learning_verbs = {train_line, edit_line};
+inline constexpr LearningVerb normals_line = {"normals", "One photo of an object in, the normals of its surface out"};
+
+inline constexpr std::array learning_verbs = {train_line, edit_line, normals_line};
 
 // Those that the program at hand leaves to the other one.
 std::span<const LearningVerb> verbs_elsewhere();

@@ -9,13 +9,13 @@
 #include <string>
 
 #include "mesh_errors.h"
+#include "motion_pictures/roadmap_pictures.h"
 #include "options.h"
 #include "partwise/base/atomic_file.h"
 #include "partwise/geometry/mesh_io.h"
 #include "partwise/motion/maprm.h"
 #include "partwise/motion/margin_push.h"
 #include "partwise/motion/world.h"
-#include "roadmap_pictures.h"
 #include "verbs.h"
 
 namespace partwise::cli {
@@ -38,14 +38,20 @@ struct Options {
   RoadmapSettings connecting;
 };
 
+// One of these.
 struct Obstacles {
   std::optional<City> city;
   std::optional<Mesh> mesh;
+  std::optional<PlanningProblem> problem;
+
+  bool flat() const { return city || (problem && !problem->footprints.empty()); }
+  const std::vector<Polygons>& footprints() const { return city ? city->footprints : problem->footprints; }
 };
 
-bool is_city(const std::string& file) {
+bool is_city(const std::string& file) { return lower_ending(file) == ".geojson"; }
+bool is_problem(const std::string& file) {
   const std::string ending = lower_ending(file);
-  return ending == ".geojson" || ending == ".json";
+  return ending == ".cfg" || ending == ".env" || ending == ".json";
 }
 
 void announce_outputs(const Options& options, Outputs& outputs) {
@@ -53,20 +59,30 @@ void announce_outputs(const Options& options, Outputs& outputs) {
   if (!options.samples_out.empty()) outputs.add("--samples-out", options.samples_out, {".txt"});
   if (!options.svg.empty()) outputs.add("--svg", options.svg, {".svg"});
   if (!options.glb.empty()) outputs.add("--glb", options.glb, {".glb"});
-  if (is_city(options.scene) ? !options.glb.empty() : !options.svg.empty())
-    throw UsageError(is_city(options.scene) ? "--glb: a city is of the plane; draw it with --svg"
-                                            : "--svg: a mesh is of space; show it with --glb");
+}
+
+void expect_fitting_pictures(const Obstacles& obstacles, const Options& options) {
+  if (obstacles.flat() && !options.glb.empty())
+    throw UsageError("--glb: these obstacles are of the plane; draw them with --svg");
+  if (!obstacles.flat() && !options.svg.empty())
+    throw UsageError("--svg: these obstacles are of space; show them with --glb");
 }
 
 Obstacles read_obstacles(const Options& options) {
-  if (is_city(options.scene)) return {read_city(options.scene, options.limit), {}};
-  if (options.limit > 0) throw UsageError("--limit: keeps footprints of a city (.geojson); a mesh has none");
-  return {{}, read_mesh(options.scene)};
+  if (is_city(options.scene)) return {read_city(options.scene, options.limit), {}, {}};
+  if (options.limit > 0) throw UsageError("--limit: keeps footprints of a city (.geojson); this has none");
+  if (is_problem(options.scene)) return {{}, {}, read_planning_problem(options.scene)};
+  return {{}, read_mesh(options.scene), {}};
 }
 
 World made_ready(const Obstacles& obstacles, const Options& options, const Progress& progress) {
   WorldSettings settings;
   if (options.tolerance > 0) settings.tolerance = options.tolerance;
+  if (obstacles.problem) {
+    ProblemWorldSettings of_problem;
+    if (options.tolerance > 0) of_problem.tolerance = options.tolerance;
+    return problem_world(*obstacles.problem, of_problem, progress);
+  }
   if (obstacles.city) return city_world(*obstacles.city, settings, progress);
   return naming_mesh(options.scene, [&] { return mesh_world(*obstacles.mesh, settings, progress); });
 }
@@ -83,6 +99,7 @@ std::string as_text(const AxisSamples& found) {
 void roadmap_of_file(const Options& options, Run& run) {
   announce_outputs(options, run.outputs);
   const Obstacles obstacles = run.stage("read", [&] { return read_obstacles(options); });
+  expect_fitting_pictures(obstacles, options);
   const World world = run.stage("parts", [&] { return made_ready(obstacles, options, run.progress); });
   std::optional<MarginField> field;
   std::unique_ptr<Retractor> retract;
@@ -109,8 +126,11 @@ void roadmap_of_file(const Options& options, Run& run) {
   run.stage("write", [&] {
     if (!options.samples_out.empty()) write_file(run.outputs.staged("--samples-out"), as_text(found));
     if (!options.svg.empty())
-      write_roadmap_svg(run.outputs.staged("--svg"), obstacles.city->footprints, found.samples, roadmap);
-    if (!options.glb.empty()) write_roadmap_glb(run.outputs.staged("--glb"), *obstacles.mesh, found.samples, roadmap);
+      write_file(run.outputs.staged("--svg"), roadmap_svg(obstacles.footprints(), found.samples, roadmap));
+    if (!options.glb.empty()) {
+      const auto meshes = obstacles.mesh ? std::vector<Mesh>{*obstacles.mesh} : obstacles.problem->obstacles;
+      write_roadmap_glb(run.outputs.staged("--glb"), meshes, found.samples, roadmap);
+    }
   });
 
   nlohmann::ordered_json& json = run.report;
@@ -138,7 +158,10 @@ void roadmap_of_file(const Options& options, Run& run) {
 
 Action add(CLI::App& command) {
   const auto options = std::make_shared<Options>();
-  command.add_option("SCENE", options->scene, "The obstacles: footprints of a city in degrees (.geojson), or a mesh")
+  command
+      .add_option("SCENE", options->scene,
+                  "The obstacles: footprints of a city in degrees (.geojson), a mesh, or a planning problem (.cfg, "
+                  ".env, .json)")
       ->required()
       ->type_name("");
   add_count(command, "--limit", options->limit, 1, "Of a city, the N footprints nearest to the centre [all]");
@@ -155,8 +178,8 @@ Action add(CLI::App& command) {
   add_count(command, "--neighbours", options->connecting.neighbours, 1, "Edges tried from each sample [8]");
   add_file(command, "--samples-out", options->samples_out,
            "Write a configuration a line (metres in a city), then its two smallest obstacle distances (.txt)");
-  add_file(command, "--svg", options->svg, "Draw the roadmap of a city (.svg)");
-  add_file(command, "--glb", options->glb, "Show the roadmap of a mesh (.glb)");
+  add_file(command, "--svg", options->svg, "Draw the roadmap of the plane (.svg)");
+  add_file(command, "--glb", options->glb, "Show the roadmap of space (.glb); of a body, the ways of its origin");
   return [options](Run& run) { roadmap_of_file(*options, run); };
 }
 

@@ -93,21 +93,41 @@ class Train(unittest.TestCase):
         self.assertEqual(other.returncode, 1)
         self.assertIn("another configuration", other.stderr)
 
+    def normals(self, architecture, **changes):
+        """A training of normals alone."""
+        return self.config(f"{architecture}.json", network="normals", architecture=architecture, normal_channels=None, channels=32, parts=0.5,
+                           stages=[{"steps": STEPS, "learning_rate": 1e-3, "pixel": 20}], **changes)
+
+    def test_normals_alone(self):
+        for architecture in ("u", "multi_branch"):
+            output = self.trained(architecture, self.normals(architecture))
+            log = self.log(output)
+            self.assertEqual(set(log[0]["training"]), {"loss", "normal", "pixel", "gradient", "learning_rate"})
+            self.trained(f"{architecture}_again", self.normals(architecture, start=f"{architecture}/best.pt"))
+        refused = run("train", self.normals("u", start="multi_branch/best.pt"), "-o", self.folder / "bad")
+        self.assertEqual(refused.returncode, 1)
+        self.assertIn("architecture", refused.stderr)
+
     def test_goes_on_after_being_killed(self):
-        config = self.config()
-        whole = self.trained("whole", config)
-        output = self.folder / "killed"
+        for name, config in (("editing", self.config()), ("normals", self.normals("u"))):
+            with self.subTest(name):
+                self.goes_on_after_being_killed(name, config)
+
+    def goes_on_after_being_killed(self, name, config):
+        whole = self.trained(f"{name}_whole", config)
+        output = self.folder / f"{name}_killed"
         process = subprocess.Popen(command("train", config, "-o", output, "--quiet", "--threads", 1))
         deadline = time.monotonic() + 500
         while not (output / "checkpoint.pt").exists() and process.poll() is None and time.monotonic() < deadline:
             time.sleep(0.01)
         process.send_signal(signal.SIGKILL)
         process.wait()
-        self.trained("killed", config, "--resume")
+        self.trained(f"{name}_killed", config, "--resume")
         self.assertEqual(self.log(output), self.log(whole))
 
     def test_two_processes_learn_what_one_does(self):
-        config = self.config(dropout=0.3)
+        """Up to rounding, which Adam's first steps make much of: they are as long where a gradient is next to nothing."""
+        config = self.config(dropout=0.3, report_every=1)
         one = self.trained("one", config)
         output, port = self.folder / "two", free_port()
         processes = []
@@ -122,13 +142,18 @@ class Train(unittest.TestCase):
             self.assertEqual(alone.keys(), shared.keys())
             for group in ("training", "validation"):
                 for name, value in alone.get(group, {}).items():
-                    self.assertAlmostEqual(shared[group][name], value, delta=1e-3 * abs(value), msg=f"{alone['step']} {name}")
+                    near = 1e-5 if alone["step"] == 1 else 1e-2
+                    self.assertAlmostEqual(shared[group][name], value, delta=near * abs(value), msg=f"{alone['step']} {name}")
 
     def test_bad_configurations(self):
         cases = [({"network": "oracle"}, "network"), ({"stages": []}, "stages"), ({"stages": [{"steps": 0}]}, "stages[0].steps"),
                  ({"stages": [{"steps": 1, "speed": 2}]}, "speed"), ({"materials": ["granite"]}, "granite"), ({"lights": ["moon"]}, "moon"),
                  ({"views": ["nowhere"]}, "nowhere"), ({"size": 100}, "size"), ({"size": 160}, "160"), ({"colour": 1}, "colour"),
-                 ({"views": None}, "views"), ({"given": ["material"]}, "given"), ({"start": "none.pt"}, "none.pt")]
+                 ({"views": None}, "views"), ({"given": ["material"]}, "given"), ({"start": "none.pt"}, "none.pt"),
+                 ({"network": None}, "network"), ({"network": "normals", "normal_channels": None}, "architecture"),
+                 ({"network": "normals", "architecture": "v"}, "multi_branch"), ({"network": "normals", "architecture": "u"}, "normal_channels"),
+                 ({"network": "normals", "architecture": "u", "normal_channels": None, "channels": 24}, "channels"),
+                 ({"network": "normals", "architecture": "u", "normal_channels": None, "readers": "none.pt"}, "none.pt")]
         for changes, word in cases:
             done = run("train", self.config("bad.json", **changes), "-o", self.folder / "bad")
             self.assertEqual(done.returncode, 1, (changes, done.stderr))

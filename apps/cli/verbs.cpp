@@ -8,10 +8,10 @@
 namespace partwise::cli {
 
 namespace {
-constexpr std::array list = {&decompose_verb, &feature_verb, &segment_verb, &evaluate_verb,
-                             &retrieve_verb,  &medial_verb,  &outline_verb, &compare2d_verb,
-                             &cage_verb,      &deform_verb,  &repair_verb,  &unfold_verb,
-                             &material_verb,  &render_verb,  &dataset_verb, &roadmap_verb};
+constexpr std::array list = {&decompose_verb, &feature_verb, &segment_verb,   &evaluate_verb, &retrieve_verb,
+                             &medial_verb,    &outline_verb, &compare2d_verb, &cage_verb,     &deform_verb,
+                             &repair_verb,    &unfold_verb,  &material_verb,  &render_verb,   &dataset_verb,
+                             &roadmap_verb,   &plan_verb};
 }
 
 std::span<const Verb* const> verbs() { return list; }

@@ -24,7 +24,9 @@ extern const Verb render_verb;
 extern const Verb dataset_verb;
 extern const Verb train_verb;
 extern const Verb edit_verb;
+extern const Verb normals_verb;
 extern const Verb roadmap_verb;
+extern const Verb plan_verb;
 
 std::span<const Verb* const> verbs();
 

@@ -1,6 +1,7 @@
 // partwise_demo OUT_DIR: decomposes the shipped models, draws them, lets copies of them fall into a heap, and writes
-// OUT_DIR/index.html, materials.html and, in a build with libtorch, edits.html, self-contained pages, OUT_DIR/hero.png,
-// four models, their parts and hulls in one picture, and OUT_DIR/edits.png, a picture of a car and edits of it.
+// OUT_DIR/index.html, materials.html, motion.html and, in a build with libtorch, edits.html, self-contained pages,
+// OUT_DIR/hero.png, four models, their parts and hulls in one picture, and OUT_DIR/edits.png, a picture of a car and
+// edits of it.
 
 #include <fmt/format.h>
 #include <tbb/info.h>
@@ -17,6 +18,7 @@
 #include "edits.h"
 #endif
 #include "materials.h"
+#include "motion.h"
 #include "outlines.h"
 #include "page.h"
 #include "partwise/base/atomic_file.h"
@@ -160,6 +162,9 @@ void run(const std::filesystem::path& folder) {
   partwise::write_file(folder / "edits.html", demo::make_edits_page(edits));
   story.others.push_back({"edits.html", "One picture in, any material out"});
 #endif
+  show("finding ways");
+  partwise::write_file(folder / "motion.html", demo::make_motion_page(demo::tell_motion()));
+  story.others.push_back({"motion.html", "Ways that keep their distance"});
   show("simulating and drawing the heap");
   story.pile = tell_pile(settings, pile.get());
   story.seconds = seconds_since(start);

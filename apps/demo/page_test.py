@@ -1,7 +1,7 @@
 """Opens the demo's page in headless Chromium through WebDriver (https://www.w3.org/TR/webdriver2/) and looks at it as a
 reader would: at 390 and at 1440 pixels, in light and in dark.
 
-usage: page_test.py CHROMEDRIVER CHROMIUM FOLDER PAGE MATERIALS_PAGE [EDITS_PAGE]
+usage: page_test.py CHROMEDRIVER CHROMIUM FOLDER PAGE MATERIALS_PAGE MOTION_PAGE [EDITS_PAGE]
 """
 
 import json
@@ -15,7 +15,7 @@ import urllib.request
 
 driver_path, chromium_path, folder = (pathlib.Path(argument) for argument in sys.argv[1:4])
 pages = [folder / name for name in sys.argv[4:]]
-page_path, materials_path = pages[:2]
+page_path, materials_path, motion_path = pages[:3]
 
 # What the page says about itself once it is laid out.
 INSPECT = """
@@ -170,9 +170,21 @@ class Page(unittest.TestCase):
         for seen in self.looks_at(materials_path):
             self.assertEqual((seen["balls"], seen["samples"], seen["images"]), (100, 60, 176))
 
-    @unittest.skipIf(len(pages) < 3, "built without libtorch")
+    def test_the_page_of_motion(self):
+        for seen in self.looks_at(motion_path):
+            self.assertEqual(seen["images"], 2)
+            # time and share on the axis of three methods; length and narrowest place of three ways
+            figures = [float(text.replace("\u202f", "").split()[0]) for text in seen["facts"]]
+            self.assertEqual(len(figures), 12)
+            self.assertEqual(figures[1], 100)
+            (length, kept), (shorter, shortened) = figures[6:8], figures[8:10]
+            self.assertGreater(kept, 0)
+            self.assertGreaterEqual(shortened, 0.88 * kept)
+            self.assertLess(shorter, length)
+
+    @unittest.skipIf(len(pages) < 4, "built without libtorch")
     def test_the_page_of_edits(self):
-        for seen in self.looks_at(pages[2]):
+        for seen in self.looks_at(pages[3]):
             # edits, what was found beside the truth, swaps, parts
             self.assertEqual(seen["rows"], [10, 6, 16, 4])
 

@@ -9,6 +9,7 @@
 //   view        any, mirrored half of the time; three times in four stretched, turned by up to 15 degrees and leaned,
 //               which makes other shapes of those there are (learning/view_warp.h)
 //   exposure    the median of the object to 0.18, times 2^-0.75 to 2^0.75
+//   parts       of a share of the rows, each wears one or the other of the two materials
 // `varied` off: materials, lights, views and exposure as they are, for validation and tests.
 //
 // Row i of batch b depends on the seed, b and i alone. All on the CPU, on all threads. Errors: CheckFailed where there
@@ -36,6 +37,9 @@ struct EditBatch {
   at::Tensor image;            // B x 3 x S x S, linear
   at::Tensor target_material;  // B x 108
   at::Tensor target;           // B x 3 x S x S, linear: the same in the target material
+  at::Tensor other_parts;      // B x 1 x S x S, 1 where the two materials are exchanged, in image and target alike
+  at::Tensor maps;             // B x 2 x 3 x T: what image and target were looked up in (rendering_layer.h)
+  int map_size = 0;            // of these
 
   at::Tensor mask() const { return pictures.narrow(1, 3, 1); }
 };
@@ -45,6 +49,7 @@ struct EditSamplesSettings {
   int group = 4;      // rows
   int map_size = 64;  // of reflectance maps
   bool varied = true;
+  double parts = 0;  // share of rows whose parts differ in material
 };
 
 class EditSamples {
@@ -64,6 +69,7 @@ class EditSamples {
   std::vector<DsbrdfCoefficients> materials_;
   std::vector<EnvironmentLight> lights_;
   EditSamplesSettings settings_;
+  std::vector<int> texels_;  // of a reflectance map, that lookups reach
 };
 
 }  // namespace partwise

@@ -68,6 +68,33 @@ TEST(EditSamples, AreWhatTheLayerRenders) {
   EXPECT_LT((lengths - mask).abs().max().item<double>(), 1e-3);
 }
 
+// Where parts differ too, image and target are those of the maps that are handed over.
+TEST(EditSamples, PartsWearOneOfTwoMaterialsAndTheTargetTheOther) {
+  for (const bool varied : {false, true}) {
+    const EditBatch batch = test::samples(varied, 4, 0.8).batch(1, {0, 12, 12});
+    const at::Tensor other = batch.other_parts;
+    const auto rendered = [&](int here, int there) {
+      return looked_up_images(batch.normals * (1 - other), batch.maps.select(1, here), batch.map_size) +
+             looked_up_images(batch.normals * other, batch.maps.select(1, there), batch.map_size);
+    };
+    const auto error = [](const at::Tensor& a, const at::Tensor& b) {
+      return ((a - b).norm() / b.norm()).item<double>();
+    };
+    EXPECT_LT(error(rendered(0, 1), batch.image), 1e-5);
+    EXPECT_LT(error(rendered(1, 0), batch.target), 1e-5);
+    EXPECT_TRUE(other.mul(other - 1).eq(0).all().item<bool>());
+    EXPECT_TRUE((other <= batch.mask()).all().item<bool>());
+    const at::Tensor share = other.sum({1, 2, 3}) / batch.mask().sum({1, 2, 3});
+    const int mixed = (share > 0).logical_and(share < 1).sum().item<int>();
+    EXPECT_GE(mixed, 4);  // of 12
+    EXPECT_LT(mixed, 12);
+  }
+  const EditBatch plain = test::samples(true).batch(1, {0, 4, 4}),
+                  mixed = test::samples(true, 4, 1).batch(1, {0, 4, 4});
+  EXPECT_FALSE(plain.other_parts.any().item<bool>());
+  EXPECT_TRUE(plain.normals.equal(mixed.normals));
+}
+
 TEST(EditSamples, PairsExchangeTheirMaterials) {
   const EditBatch batch = test::samples(true).batch(0, {0, 4, 4});
   for (int i = 0; i < 4; i += 2) {

@@ -94,6 +94,7 @@ PictureLayers EditingNetworks::operator()(const at::Tensor& pictures) const {
   return {normals(pictures), scaled_material(pictures), log_radiance(pictures)};
 }
 
+const NormalNetwork& EditingNetworks::normal_network() const { return modules_->normals; }
 const EditingNetworksSettings& EditingNetworks::settings() const { return modules_->settings; }
 MaterialRange EditingNetworks::range() const { return {modules_->low, modules_->high}; }
 torch::nn::Module& EditingNetworks::module() const { return *modules_; }

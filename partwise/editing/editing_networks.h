@@ -48,6 +48,7 @@ class EditingNetworks {
   at::Tensor log_radiance(const at::Tensor& pictures) const;
   PictureLayers operator()(const at::Tensor& pictures) const;
 
+  const NormalNetwork& normal_network() const;
   const EditingNetworksSettings& settings() const;
   MaterialRange range() const;
   torch::nn::Module& module() const;

@@ -61,17 +61,12 @@ TEST(EditingNetworks, ShapesAndRanges) {
   EXPECT_THROW(given.normals(at::zeros({1, 4, 64, 64})), CheckFailed);
 }
 
-void round_as_files_do(torch::nn::Module& network) {
-  const at::NoGradGuard no_gradient;
-  for (at::Tensor& each : network.parameters()) each.copy_(each.to(at::kHalf));
-}
-
 TEST(EditingNetworks, AreReadAsTheyWereWritten) {
   const TestFolder folder;
   const std::filesystem::path path = folder.path() / "w.pt";
   EditingNetworks given = networks();
   given.module().eval();
-  round_as_files_do(given.module());
+  test::round_as_files_do(given.module());
   write_weights(path, given.weights(), given.module());
   const EditingNetworks read = read_editing_networks(path);
   const at::Tensor pictures = test::samples(false).batch(0, {0, 1, 1}).pictures;
@@ -165,21 +160,6 @@ TEST(EditingTask, SharesOfABatchHaveItsGradientInTheMean) {
   EXPECT_LT(std::sqrt(difference), 1e-4 * std::sqrt(size));
 }
 
-// The loss of one batch before training on it, and after.
-std::pair<double, double> learnt_by_heart(TrainingTask& task) {
-  torch::optim::Adam optimiser(task.network().parameters(), torch::optim::AdamOptions(3e-3));
-  double first = 0, last = 0;
-  for (int step = 0; step < 30; ++step) {
-    optimiser.zero_grad();
-    const Losses losses = task.training_losses(0, 0, {0, 2, 2});
-    losses.total.backward();
-    optimiser.step();
-    last = losses.total.item<double>();
-    if (step == 0) first = last;
-  }
-  return {first, last};
-}
-
 // A network that cannot learn one batch by heart learns nothing.
 struct Term {
   const char* name;
@@ -191,7 +171,7 @@ class OneBatch : public testing::TestWithParam<Term> {};
 TEST_P(OneBatch, IsLearntByHeart) {
   const EditSamples samples = test::samples(false);
   EditingTask alone = task(networks(), samples, GetParam().weights);
-  const auto [first, last] = learnt_by_heart(alone);
+  const auto [first, last] = test::learnt_by_heart(alone);
   EXPECT_LT(last, first / 3);
 }
 
@@ -207,10 +187,10 @@ TEST(EncoderDecoder, LearnsABatchByHeartAndIsReadAsItWasWritten) {
   EditingTaskSettings settings;
   settings.stages = {{.normal = 0, .material = 1, .light = 0, .pixel = 10, .perceptual = 1}};
   EncoderDecoderTask task(network, samples, samples, settings);
-  const auto [first, last] = learnt_by_heart(task);
+  const auto [first, last] = test::learnt_by_heart(task);
   EXPECT_LT(last, first / 3);
   network.module().eval();
-  round_as_files_do(network.module());
+  test::round_as_files_do(network.module());
   const TestFolder folder;
   write_weights(folder.path() / "w.pt", network.weights(), network.module());
   const EncoderDecoder read = read_encoder_decoder(folder.path() / "w.pt");

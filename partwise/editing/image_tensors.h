@@ -1,4 +1,5 @@
-// Images, whose channels are interleaved, as tensors of planes, and back. Internal to this room and its benchmarks.
+// Images, whose channels are interleaved, as tensors of planes, and back. Internal to the rooms that have
+// networks for photos, and to benchmarks.
 #pragma once
 
 #include <ATen/core/Tensor.h>

@@ -13,15 +13,9 @@
 namespace partwise {
 namespace {
 
-constexpr int curve_at(int lobe, DsbrdfCurve which) {
-  return lobe / dsbrdf_lobe_count * dsbrdf_channel_size + curve_offset(lobe % dsbrdf_lobe_count, which);
-}
-constexpr bool signed_gamma(int lobe) { return lobe % dsbrdf_lobe_count == 0; }
-
-// Curves beyond any that a material has stay where floats are finite, and with them every product of theirs.
 template <typename Scalar>
 Scalar bounded_exp(Scalar value) {
-  return std::exp(std::clamp(value, Scalar(-40), Scalar(40)));
+  return std::exp(std::clamp(value, Scalar(-largest_log_gamma), Scalar(largest_log_gamma)));
 }
 
 }  // namespace

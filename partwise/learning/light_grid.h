@@ -24,6 +24,16 @@ struct LightPixel {
 template <typename Scalar>
 std::vector<LightPixel<Scalar>> light_grid(int height, int width);
 
+// Where a curve's six coefficients begin in a material, and whether a lobe's gamma is its curve as it stands.
+constexpr int curve_at(int lobe, DsbrdfCurve which) {
+  return lobe / dsbrdf_lobe_count * dsbrdf_channel_size + curve_offset(lobe % dsbrdf_lobe_count, which);
+}
+constexpr bool signed_gamma(int lobe) { return lobe % dsbrdf_lobe_count == 0; }
+
+// Curves beyond any that a material has are cut here, so that floats stay finite, and with them every product of
+// theirs.
+inline constexpr int largest_log_gamma = 40;
+
 inline constexpr int lobe_total = 3 * dsbrdf_lobe_count;  // lobe r of channel c is number 3 c + r
 
 // The lobes at one light pixel, exp(log_kappa + gamma log(n.h)) the exponent of each.

@@ -57,7 +57,26 @@ struct LobeValue {
   Value value, slope;
 };
 
-// The lobes of one light pixel. evaluate() is false where no lane would notice the lobe.
+// Of x, in either kind of lanes. Floats go by powers of 2: expm1(e) = 2^y - 1, y = e / ln 2, and y = 2^z with
+// z = x / ln 2 - log2(ln 2), which lobe_of_power takes.
+inline LobeValue<double> lobe_value(double x) {
+  const double exponent = std::exp(x), value = std::expm1(std::min(exponent, largest_exponent));
+  return {value, exponent < largest_exponent ? exponent * (value + 1) : 0};
+}
+
+inline constexpr float over_log_2 = 1.44269504f, log2_over_log_2 = 0.52876637f;
+
+inline LobeValue<float8::Float8> lobe_of_power(const float8::Float8& z) {
+  using namespace float8;
+  constexpr float log_2 = 0.69314718f, bound = 4.11372887f;  // log2(largest_exponent / ln 2)
+  const Float8 y = exp2(largest(least(z, all(bound)), all(-100))), value = exp2m1(y);
+  return {value, z < bound ? log_2 * y * (value + 1) : Float8{}};
+}
+inline LobeValue<float8::Float8> lobe_value(const float8::Float8& x) {
+  return lobe_of_power(float8::multiply_add(x, float8::all(over_log_2), float8::all(log2_over_log_2)));
+}
+
+// The lobes of one light pixel, the same in all lanes. evaluate() is false where no lane would notice the lobe.
 template <typename Scalar>
 class LobeLanes;
 
@@ -67,9 +86,7 @@ class LobeLanes<double> {
   explicit LobeLanes(const PixelLobes<double>& lobes) : lobes_(lobes) {}
 
   bool evaluate(std::size_t lobe, double log_cosine, LobeValue<double>& at) const {
-    const double exponent = std::exp(lobes_.log_kappa[lobe] + lobes_.gamma[lobe] * log_cosine);
-    at.value = std::expm1(std::min(exponent, largest_exponent));
-    at.slope = exponent < largest_exponent ? exponent * (at.value + 1) : 0;
+    at = lobe_value(lobes_.log_kappa[lobe] + lobes_.gamma[lobe] * log_cosine);
     return true;
   }
 
@@ -77,7 +94,6 @@ class LobeLanes<double> {
   const PixelLobes<double>& lobes_;
 };
 
-// In powers of 2: expm1(e) = 2^y - 1, y = e / ln 2, and y = 2^z, z = x / ln 2 - log2(ln 2).
 template <>
 class LobeLanes<float> {
  public:
@@ -93,16 +109,11 @@ class LobeLanes<float> {
     constexpr float least_seen = -45;  // 2^-45 is nothing beside what materials reflect
     const Float8 z = multiply_add(log_cosine, all(scale_[lobe]), all(offset_[lobe]));
     if (!any_positive(z - least_seen)) return false;
-    const Float8 y = exp2(largest(least(z, all(bound)), all(-100)));
-    at.value = exp2m1(y);
-    at.slope = z < bound ? log_2 * y * (at.value + 1) : Float8{};
+    at = lobe_of_power(z);
     return true;
   }
 
  private:
-  static constexpr float log_2 = 0.69314718f, over_log_2 = 1.44269504f, log2_over_log_2 = 0.52876637f;
-  static constexpr float bound = 4.11372887f;  // log2(largest_exponent / ln 2)
-
   std::array<float, lobe_total> scale_, offset_;
 };
 

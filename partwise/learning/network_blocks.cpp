@@ -1,6 +1,7 @@
 #include "partwise/learning/network_blocks.h"
 
 #include <ATen/Functions.h>
+#include <ATen/TensorOperators.h>
 #include <torch/nn/init.h>
 #include <torch/nn/modules/activation.h>
 #include <torch/nn/modules/normalization.h>
@@ -71,6 +72,8 @@ torch::nn::Sequential doubling_convolution(int from, int to) {
   add_normalised_rectifier(layers, to);
   return layers;
 }
+
+at::Tensor unit_vectors(const at::Tensor& vectors) { return vectors / (vectors.square().sum(1, true) + 1e-12).sqrt(); }
 
 torch::nn::Sequential connected(int from, int to, double dropout) {
   torch::nn::Linear linear(from, to);

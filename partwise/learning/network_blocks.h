@@ -43,6 +43,8 @@ enum class Normalisation { none, groups };
 torch::nn::Sequential halving_convolutions(int from, const std::vector<int>& channels, Normalisation normalisation);
 // Transposed convolution that doubles the size; normalisation; rectifier.
 torch::nn::Sequential doubling_convolution(int from, int to);
+// Vectors of a map, B x 3 x H x W, brought to unit length.
+at::Tensor unit_vectors(const at::Tensor& vectors);
 // Fully connected; rectifier; dropout.
 torch::nn::Sequential connected(int from, int to, double dropout);
 

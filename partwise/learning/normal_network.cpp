@@ -57,9 +57,7 @@ struct NormalNetwork::Scales : torch::nn::Module {
     maps = doubled(quarter->forward(maps), size / 2);
     maps = at::cat({half_picture->forward(pictures), maps}, 1);
     maps = at::cat({pictures, doubled(half->forward(maps), size)}, 1);
-    const at::Tensor vectors = full->forward(maps);
-    const at::Tensor lengths = (vectors.square().sum(1, true) + 1e-12).sqrt();
-    return vectors / lengths * pictures.narrow(1, 3, 1);
+    return unit_vectors(full->forward(maps)) * pictures.narrow(1, 3, 1);
   }
 
   NormalNetworkSettings settings;
@@ -76,6 +74,8 @@ at::Tensor NormalNetwork::operator()(const at::Tensor& pictures) const {
   for (const int side : {2, 3}) PARTWISE_CHECK(pictures.size(side), ==, scales_->settings.size);
   return scales_->forward(pictures);
 }
+
+const NormalNetworkSettings& NormalNetwork::settings() const { return scales_->settings; }
 
 std::shared_ptr<torch::nn::Module> NormalNetwork::module() const { return scales_; }
 

@@ -34,6 +34,7 @@ class NormalNetwork {
 
   at::Tensor operator()(const at::Tensor& pictures) const;
 
+  const NormalNetworkSettings& settings() const;
   std::shared_ptr<torch::nn::Module> module() const;
 
  private:

@@ -35,37 +35,38 @@ auto grid_of(const at::Tensor& light) {
   return light_grid<Scalar>(static_cast<int>(light.size(2)), static_cast<int>(light.size(3)));
 }
 
-void check(const at::Tensor& normals, const at::Tensor& material, const at::Tensor& light) {
+void check_number(const at::Tensor& tensor, const at::Tensor& like) {
+  PARTWISE_CHECK(tensor.is_cpu(), ==, true);
+  PARTWISE_CHECK(tensor.scalar_type() == at::kFloat || tensor.scalar_type() == at::kDouble, ==, true);
+  PARTWISE_CHECK(tensor.scalar_type() == like.scalar_type(), ==, true);
+}
+
+// Of a batch of `images`.
+void check_normals(const at::Tensor& normals, std::int64_t images) {
   PARTWISE_CHECK(normals.dim(), ==, 4);
+  PARTWISE_CHECK(normals.size(0), ==, images);
   PARTWISE_CHECK(normals.size(1), ==, 3);
+}
+
+void check_material_and_light(const at::Tensor& material, const at::Tensor& light) {
   PARTWISE_CHECK(material.dim(), ==, 2);
-  PARTWISE_CHECK(material.size(0), ==, normals.size(0));
   PARTWISE_CHECK(material.size(1), ==, dsbrdf_size);
   PARTWISE_CHECK(light.dim(), ==, 4);
-  PARTWISE_CHECK(light.size(0), ==, normals.size(0));
+  PARTWISE_CHECK(light.size(0), ==, material.size(0));
   PARTWISE_CHECK(light.size(1), ==, 3);
-  for (const at::Tensor& each : {normals, material, light}) {
-    PARTWISE_CHECK(each.is_cpu(), ==, true);
-    PARTWISE_CHECK(each.scalar_type() == at::kFloat || each.scalar_type() == at::kDouble, ==, true);
-    PARTWISE_CHECK(each.scalar_type() == normals.scalar_type(), ==, true);
-  }
+  for (const at::Tensor& each : {material, light}) check_number(each, material);
 }
 
-GradientWanted wanted_of(AutogradContext* context) {
-  return {context->needs_input_grad(0), context->needs_input_grad(1), context->needs_input_grad(2)};
-}
+// Tensors like those of material and light, for what is wanted of their derivatives.
+struct SourceGradients {
+  at::Tensor material, light;
 
-// Tensors like those of the inputs, for what is wanted of their derivatives.
-struct Gradients {
-  at::Tensor normals, material, light;
-
-  Gradients(const tensor_list& inputs, GradientWanted wanted)
-      : normals(wanted.normals ? at::zeros_like(inputs[0]) : at::Tensor()),
-        material(wanted.material ? at::zeros_like(inputs[1]) : at::Tensor()),
-        light(wanted.radiance ? at::zeros_like(inputs[2]) : at::Tensor()) {}
+  SourceGradients(const at::Tensor& of_material, const at::Tensor& of_light, GradientWanted wanted)
+      : material(wanted.material ? at::zeros_like(of_material) : at::Tensor()),
+        light(wanted.radiance ? at::zeros_like(of_light) : at::Tensor()) {}
 
   template <typename Scalar>
-  void set_material_and_light(std::int64_t image, const SumGradient<Scalar>& found) {
+  void set(std::int64_t image, const SumGradient<Scalar>& found) {
     if (material.defined()) coefficients<Scalar>(material, image) = found.material;
     if (light.defined()) planes<Scalar>(light, image) = found.radiance;
   }
@@ -90,76 +91,116 @@ struct ExactImages : torch::autograd::Function<ExactImages> {
     const tensor_list inputs = context->get_saved_variables();
     const at::Tensor &normals = inputs[0], &material = inputs[1], &light = inputs[2];
     const at::Tensor of_images = of_results[0].contiguous();
-    const GradientWanted wanted = wanted_of(context);
-    Gradients gradients(inputs, wanted);
+    const GradientWanted wanted{context->needs_input_grad(0), context->needs_input_grad(1),
+                                context->needs_input_grad(2)};
+    const at::Tensor of_normals = wanted.normals ? at::zeros_like(normals) : at::Tensor();
+    SourceGradients sources(material, light, wanted);
     with_scalar(normals, [&]<typename Scalar>(Scalar) {
       const auto grid = grid_of<Scalar>(light);
       tbb::parallel_for(std::int64_t(0), normals.size(0), [&](std::int64_t i) {
         const DifferentiableSum<Scalar> sum(grid, coefficients<Scalar>(material, i), planes<Scalar>(light, i));
         const auto found = sum.gradient(planes<Scalar>(normals, i), planes<Scalar>(of_images, i), wanted);
-        if (wanted.normals) planes<Scalar>(gradients.normals, i) = found.normals;
-        gradients.set_material_and_light(i, found);
+        if (wanted.normals) planes<Scalar>(of_normals, i) = found.normals;
+        sources.set(i, found);
       });
     });
-    return {gradients.normals, gradients.material, gradients.light};
+    return {of_normals, sources.material, sources.light};
   }
 };
 
-struct MappedImages : torch::autograd::Function<MappedImages> {
-  static at::Tensor forward(AutogradContext* context, const at::Tensor& normals, const at::Tensor& material,
-                            const at::Tensor& light, std::int64_t map_size) {
-    at::Tensor images = at::empty_like(normals), maps;
-    with_scalar(normals, [&]<typename Scalar>(Scalar) {
+struct ReflectanceMaps : torch::autograd::Function<ReflectanceMaps> {
+  static at::Tensor forward(AutogradContext* context, const at::Tensor& material, const at::Tensor& light,
+                            std::int64_t map_size) {
+    context->save_for_backward({material, light});
+    context->saved_data["map_size"] = map_size;
+    at::Tensor maps;
+    with_scalar(material, [&]<typename Scalar>(Scalar) {
       const auto grid = grid_of<Scalar>(light);
       const DiskLookup<Scalar> lookup(static_cast<int>(map_size));
-      maps = at::empty({normals.size(0), 3, lookup.normals().rows()}, normals.options());
-      tbb::parallel_for(std::int64_t(0), normals.size(0), [&](std::int64_t i) {
+      maps = at::empty({material.size(0), 3, lookup.normals().rows()}, material.options());
+      tbb::parallel_for(std::int64_t(0), material.size(0), [&](std::int64_t i) {
         const DifferentiableSum<Scalar> sum(grid, coefficients<Scalar>(material, i), planes<Scalar>(light, i));
-        auto texels = planes<Scalar>(maps, i);
-        texels = sum.colours(lookup.normals());
-        planes<Scalar>(images, i) = lookup.colours(texels, planes<Scalar>(normals, i));
+        planes<Scalar>(maps, i) = sum.colours(lookup.normals());
       });
     });
-    context->save_for_backward({normals, material, light, maps});
+    return maps;
+  }
+
+  static tensor_list backward(AutogradContext* context, const tensor_list& of_results) {
+    const tensor_list inputs = context->get_saved_variables();
+    const at::Tensor &material = inputs[0], &light = inputs[1], of_maps = of_results[0].contiguous();
+    const GradientWanted wanted{false, context->needs_input_grad(0), context->needs_input_grad(1)};
+    SourceGradients sources(material, light, wanted);
+    with_scalar(material, [&]<typename Scalar>(Scalar) {
+      const auto grid = grid_of<Scalar>(light);
+      const DiskLookup<Scalar> lookup(static_cast<int>(context->saved_data["map_size"].toInt()));
+      tbb::parallel_for(std::int64_t(0), material.size(0), [&](std::int64_t i) {
+        const DifferentiableSum<Scalar> sum(grid, coefficients<Scalar>(material, i), planes<Scalar>(light, i));
+        sources.set(i, sum.gradient(lookup.normals(), planes<Scalar>(of_maps, i), wanted));
+      });
+    });
+    return {sources.material, sources.light, at::Tensor()};
+  }
+};
+
+struct LookedUpImages : torch::autograd::Function<LookedUpImages> {
+  static at::Tensor forward(AutogradContext* context, const at::Tensor& normals, const at::Tensor& maps,
+                            std::int64_t map_size) {
+    context->save_for_backward({normals, maps});
     context->saved_data["map_size"] = map_size;
+    at::Tensor images = at::empty_like(normals);
+    with_scalar(normals, [&]<typename Scalar>(Scalar) {
+      const DiskLookup<Scalar> lookup(static_cast<int>(map_size));
+      tbb::parallel_for(std::int64_t(0), normals.size(0), [&](std::int64_t i) {
+        planes<Scalar>(images, i) = lookup.colours(planes<Scalar>(maps, i), planes<Scalar>(normals, i));
+      });
+    });
     return images;
   }
 
   static tensor_list backward(AutogradContext* context, const tensor_list& of_results) {
     const tensor_list inputs = context->get_saved_variables();
-    const at::Tensor &normals = inputs[0], &material = inputs[1], &light = inputs[2], &maps = inputs[3];
-    const at::Tensor of_images = of_results[0].contiguous();
-    const GradientWanted wanted = wanted_of(context);
-    Gradients gradients(inputs, wanted);
+    const at::Tensor &normals = inputs[0], &maps = inputs[1], of_images = of_results[0].contiguous();
+    const at::Tensor of_normals = at::empty_like(normals), of_maps = at::empty_like(maps);
     with_scalar(normals, [&]<typename Scalar>(Scalar) {
-      const auto grid = grid_of<Scalar>(light);
       const DiskLookup<Scalar> lookup(static_cast<int>(context->saved_data["map_size"].toInt()));
       tbb::parallel_for(std::int64_t(0), normals.size(0), [&](std::int64_t i) {
-        const auto looked_up =
+        const auto found =
             lookup.gradient(planes<Scalar>(maps, i), planes<Scalar>(normals, i), planes<Scalar>(of_images, i));
-        if (wanted.normals) planes<Scalar>(gradients.normals, i) = looked_up.normals;
-        if (!wanted.material && !wanted.radiance) return;
-        const DifferentiableSum<Scalar> sum(grid, coefficients<Scalar>(material, i), planes<Scalar>(light, i));
-        const auto found = sum.gradient(lookup.normals(), looked_up.texels, {false, wanted.material, wanted.radiance});
-        gradients.set_material_and_light(i, found);
+        planes<Scalar>(of_normals, i) = found.normals;
+        planes<Scalar>(of_maps, i) = found.texels;
       });
     });
-    return {gradients.normals, gradients.material, gradients.light, at::Tensor()};
+    return {of_normals, of_maps, at::Tensor()};
   }
 };
 
 }  // namespace
 
 at::Tensor exact_images(const at::Tensor& normals, const at::Tensor& material, const at::Tensor& light) {
-  check(normals, material, light);
+  check_material_and_light(material, light);
+  check_normals(normals, material.size(0));
+  check_number(normals, material);
   return ExactImages::apply(normals.contiguous(), material.contiguous(), light.contiguous());
 }
 
-at::Tensor mapped_images(const at::Tensor& normals, const at::Tensor& material, const at::Tensor& light, int map_size) {
-  check(normals, material, light);
+at::Tensor reflectance_maps(const at::Tensor& material, const at::Tensor& light, int map_size) {
+  check_material_and_light(material, light);
   PARTWISE_CHECK(map_size, >=, 8);
-  return MappedImages::apply(normals.contiguous(), material.contiguous(), light.contiguous(),
-                             static_cast<std::int64_t>(map_size));
+  return ReflectanceMaps::apply(material.contiguous(), light.contiguous(), static_cast<std::int64_t>(map_size));
+}
+
+at::Tensor looked_up_images(const at::Tensor& normals, const at::Tensor& maps, int map_size) {
+  PARTWISE_CHECK(maps.dim(), ==, 3);
+  PARTWISE_CHECK(maps.size(1), ==, 3);
+  PARTWISE_CHECK(map_size, >=, 8);
+  check_normals(normals, maps.size(0));
+  for (const at::Tensor& each : {normals, maps}) check_number(each, normals);
+  return LookedUpImages::apply(normals.contiguous(), maps.contiguous(), static_cast<std::int64_t>(map_size));
+}
+
+at::Tensor mapped_images(const at::Tensor& normals, const at::Tensor& material, const at::Tensor& light, int map_size) {
+  return looked_up_images(normals, reflectance_maps(material, light, map_size), map_size);
 }
 
 }  // namespace partwise

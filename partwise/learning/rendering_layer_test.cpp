@@ -216,6 +216,9 @@ TEST(RenderingLayer, OtherShapesAndTypesAreRefused) {
   EXPECT_THROW(exact_images(batch.normals.to(torch::kDouble), batch.material, batch.light), CheckFailed);
   EXPECT_THROW(exact_images(batch.normals.to(torch::kHalf), batch.material, batch.light), CheckFailed);
   EXPECT_THROW(mapped_images(batch.normals, batch.material, batch.light, 7), CheckFailed);
+  const at::Tensor maps = reflectance_maps(batch.material, batch.light, 12);
+  EXPECT_THROW(looked_up_images(batch.normals, maps, 13), CheckFailed);
+  EXPECT_THROW(looked_up_images(batch.normals, maps.narrow(0, 0, 1), 12), CheckFailed);
 }
 
 }  // namespace

@@ -2,12 +2,21 @@
 
 #include <fmt/format.h>
 
+#include "partwise/base/read_bytes.h"
+
 namespace partwise {
 namespace {
 
 constexpr int most_steps = 2000000000;
 
 }  // namespace
+
+nlohmann::json read_training_file(const std::filesystem::path& path, std::uint64_t seed) {
+  nlohmann::json whole = nlohmann::json::parse(read_bytes(path), nullptr, false);
+  if (whole.is_discarded()) throw InputError(path.string(), "is not JSON", "check brackets, quotes and commas");
+  if (seed != 0 && whole.is_object()) whole["seed"] = seed;
+  return whole;
+}
 
 TrainingSettings take_training_settings(JsonFields& fields) {
   TrainingSettings settings;
@@ -30,7 +39,7 @@ std::vector<JsonFields> take_stages(JsonFields& fields, const std::string& file)
     fields.refuse("stages", "is no list of stages", "write [{\"steps\": 1000}]");
   std::vector<JsonFields> result;
   for (std::size_t i = 0; i < stages.size(); ++i) {
-    result.emplace_back(file, fmt::format("stages[{}]", i), stages[i], "docs/training.md");
+    result.emplace_back(file, fmt::format("stages[{}]", i), stages[i], training_page);
   }
   return result;
 }

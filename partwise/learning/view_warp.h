@@ -25,4 +25,8 @@ struct ViewWarp {
 // as it is. Errors: CheckFailed for other shapes and for a map that cannot be inverted.
 at::Tensor warped_normals(const at::Tensor& normals, const ViewWarp& warp);
 
+// The parts of the same view, S x S of bytes, 0 in the background; each pixel's that of the object's pixel that is
+// nearest to where it comes from, of the four about it. Object is what it is for the normals.
+at::Tensor warped_parts(const at::Tensor& parts, const ViewWarp& warp);
+
 }  // namespace partwise

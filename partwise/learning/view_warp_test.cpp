@@ -67,5 +67,24 @@ TEST(ViewWarp, IdentityCentresAndFits) {
   EXPECT_THROW(warped_normals(normals, warp), CheckFailed);
 }
 
+// Parts that are bands of normals: bands they stay.
+TEST(ViewWarp, PartsGoWithTheirNormals) {
+  const at::Tensor normals = ellipsoid(Eigen::Vector3d(30, 24, 27).asDiagonal());
+  const at::Tensor object = (normals.square().sum(0) > 0);
+  const at::Tensor parts = (object.to(at::kByte) + (normals[0] > 0).to(at::kByte)).to(at::kByte);  // left 1, right 2
+  ViewWarp warp;
+  warp.plane = Eigen::Vector2d(-1.2, 0.85).asDiagonal();  // left and right exchanged
+  warp.share = 0.9;
+  const at::Tensor turned = warped_normals(normals, warp), found = warped_parts(parts, warp);
+  EXPECT_TRUE((found > 0).equal(turned.square().sum(0) > 0));
+  const at::Tensor clear = turned[0].abs() > 0.1;
+  EXPECT_GT(clear.sum().item<int>(), 2000);
+  EXPECT_TRUE((found == 1).logical_and(clear).equal((turned[0] > 0.1)));
+  EXPECT_TRUE((found == 2).logical_and(clear).equal((turned[0] < -0.1)));
+  const at::Tensor nothing = at::zeros({side, side}, at::kByte);
+  EXPECT_TRUE(warped_parts(nothing, warp).equal(nothing));
+  EXPECT_THROW(warped_parts(normals, warp), CheckFailed);
+}
+
 }  // namespace
 }  // namespace partwise

@@ -21,7 +21,7 @@ double AxisSamples::share_on_axis() const {
 AxisSamples axis_samples(const Scene& scene, const Retractor& retract, const AxisSamplesSettings& settings,
                          const Progress& progress) {
   constexpr int batch = 4096;
-  struct Try {
+  struct Found {
     Retraction walk;
     AxisState state;
     bool kept = false;
@@ -33,26 +33,29 @@ AxisSamples axis_samples(const Scene& scene, const Retractor& retract, const Axi
     progress("sample", static_cast<double>(result.samples.size()) / settings.count);
     // Few more than are missing, should all arrive.
     const int missing = static_cast<int>(wanted - result.samples.size());
-    std::vector<Try> tries(static_cast<std::size_t>(std::min(batch, missing + missing / 8 + 16)));
+    std::vector<std::vector<Found>> tries(static_cast<std::size_t>(std::min(batch, missing + missing / 8 + 16)));
     tbb::parallel_for(std::size_t(0), tries.size(), [&](std::size_t i) {
-      Draw draw(settings.seed, static_cast<std::uint64_t>(result.drawn) + i, axis_purpose);
-      Try& each = tries[i];
-      each.walk = retract(scene.space().drawn(draw), draw);
-      if (!each.walk.done || !scene.within_bounds(each.walk.q)) return;
-      each.state = axis_state(scene, each.walk.q);
-      each.kept = settings.only_on_axis ? each.state.on_axis() : each.state.free;
+      Draw draw(settings.seed, static_cast<std::uint64_t>(settings.first + result.drawn) + i, axis_purpose);
+      for (Retraction& walk : retract.samples(scene.space().drawn(draw), draw)) {
+        Found& each = tries[i].emplace_back(std::move(walk));
+        if (!each.walk.done || !scene.within_bounds(each.walk.q)) continue;
+        each.state = axis_state(scene, each.walk.q);
+        each.kept = settings.only_on_axis ? each.state.on_axis() : each.state.free;
+      }
     });
-    for (Try& each : tries) {
+    for (const auto& found : tries) {
       if (result.samples.size() == wanted) break;
       ++result.drawn;
-      result.steps += each.walk.steps;
-      result.distance_queries += each.walk.distance_queries + (each.walk.done ? 1 : 0);
-      result.collision_checks += each.walk.collision_checks + (each.walk.done ? 1 : 0);
-      if (each.walk.done && each.walk.steps <= quick_steps) ++result.quick;
-      if (each.kept)
-        result.samples.push_back({each.walk.q, each.state});
-      else
-        ++result.lost;
+      for (const Found& each : found) {
+        result.steps += each.walk.steps;
+        result.distance_queries += each.walk.distance_queries + (each.walk.done ? 1 : 0);
+        result.collision_checks += each.walk.collision_checks + (each.walk.done ? 1 : 0);
+        if (each.walk.done && each.walk.steps <= quick_steps) ++result.quick;
+        if (each.kept && result.samples.size() < wanted)
+          result.samples.push_back({each.walk.q, each.state});
+        else if (!each.kept)
+          ++result.lost;
+      }
     }
   }
   return result;

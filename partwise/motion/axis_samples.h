@@ -19,6 +19,7 @@ struct AxisSamplesSettings {
   bool only_on_axis = true;
   int most_tries = 50;  // configurations drawn a sample that is asked for
   std::uint64_t seed = 0;
+  long first = 0;  // number of the first configuration drawn: a later call goes on where an earlier one stopped
 };
 
 struct AxisSample {

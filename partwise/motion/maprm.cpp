@@ -4,27 +4,21 @@
 #include <numbers>
 #include <vector>
 
+#include "partwise/motion/directions.h"
+
 namespace partwise {
 namespace {
-
-double normal(Draw& draw) {  // Box and Muller 1958
-  const double radius = std::sqrt(-2 * std::log(1 - draw.unit()));
-  return radius * std::cos(2 * std::numbers::pi * draw.unit());
-}
 
 std::vector<Tangent> directions(int count, int degrees_of_freedom, Draw& draw) {
   std::vector<Tangent> result;
   const double phase = draw.unit();
   for (int i = 0; i < count; ++i) {
-    Tangent direction(degrees_of_freedom);
     if (degrees_of_freedom == 2) {
       const double angle = 2 * std::numbers::pi * (i + phase) / count;
-      direction << std::cos(angle), std::sin(angle);
+      result.push_back(Tangent{{std::cos(angle), std::sin(angle)}});
     } else {
-      for (double& each : direction) each = normal(draw);
-      direction.normalize();
+      result.push_back(drawn_direction(degrees_of_freedom, draw));
     }
-    result.push_back(direction);
   }
   return result;
 }

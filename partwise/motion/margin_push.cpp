@@ -107,4 +107,27 @@ Retraction MarginPush::operator()(const Configuration& q, Draw& /*draw*/) const 
   return walk.result;
 }
 
+namespace {
+
+class TrainedPush final : public Retractor {
+ public:
+  TrainedPush(const Scene& scene, const ContactSamples& contacts, const MarginFieldSettings& field,
+              const MarginPushSettings& push, const Progress& progress)
+      : field_(scene.space(), contacts, field, progress), push_(scene, field_, push) {}
+
+  Retraction operator()(const Configuration& q, Draw& draw) const override { return push_(q, draw); }
+
+ private:
+  MarginField field_;
+  MarginPush push_;
+};
+
+}  // namespace
+
+std::unique_ptr<Retractor> trained_push(const Scene& scene, const ContactSamples& contacts,
+                                        const MarginFieldSettings& field, const MarginPushSettings& push,
+                                        const Progress& progress) {
+  return std::make_unique<TrainedPush>(scene, contacts, field, push, progress);
+}
+
 }  // namespace partwise

@@ -14,6 +14,8 @@
 // about distances.
 #pragma once
 
+#include <memory>
+
 #include "partwise/motion/margin_field.h"
 #include "partwise/motion/medial_axis.h"
 
@@ -44,5 +46,10 @@ class MarginPush final : public Retractor {
   const MarginField& field_;
   MarginPushSettings settings_;
 };
+
+// A push with a field of its own, trained here. `scene` must outlive it.
+std::unique_ptr<Retractor> trained_push(const Scene& scene, const ContactSamples& contacts,
+                                        const MarginFieldSettings& field = {}, const MarginPushSettings& push = {},
+                                        const Progress& progress = {});
 
 }  // namespace partwise

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "partwise/base/draw.h"
 #include "partwise/motion/scene.h"
@@ -42,6 +43,8 @@ class Retractor {
   virtual ~Retractor() = default;
   // `draw` is for methods that need random numbers.
   virtual Retraction operator()(const Configuration& q, Draw& draw) const = 0;
+  // What sampling makes of a configuration: one, but for methods that find several at once. Never none.
+  virtual std::vector<Retraction> samples(const Configuration& q, Draw& draw) const { return {(*this)(q, draw)}; }
 };
 
 }  // namespace partwise

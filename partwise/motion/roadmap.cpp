@@ -3,8 +3,11 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <nanoflann.hpp>
+#include <numeric>
+#include <set>
 #include <utility>
 
 #include "partwise/geometry/disjoint_sets.h"
@@ -20,26 +23,17 @@ constexpr std::uint64_t edge_purpose = 2;
 
 using Pairs = std::vector<std::pair<int, int>>;
 
-MotionPoints embedded(const ConfigurationSpace& space, const std::vector<AxisSample>& samples) {
-  MotionPoints points(static_cast<Eigen::Index>(samples.size()), space.embedding());
-  for (std::size_t i = 0; i < samples.size(); ++i)
-    points.row(static_cast<Eigen::Index>(i)) = space.embedded(samples[i].q).transpose();
-  return points;
-}
-
-// Pairs of samples of which one is among the nearest of the other.
-Pairs near_pairs(const MotionPoints& points, int neighbours) {
+// Pairs of samples of which one is among the nearest of the other, where one of them is `wanted`.
+Pairs near_pairs(const MotionPoints& points, const std::vector<int>& wanted, int neighbours) {
   const Tree tree(static_cast<int>(points.cols()), std::cref(points));
-  const auto samples = static_cast<std::size_t>(points.rows());
-  const std::size_t wanted = std::min(samples, static_cast<std::size_t>(neighbours) + 1);
-  Pairs pairs(samples * wanted);
-  tbb::parallel_for(std::size_t(0), samples, [&](std::size_t i) {
-    std::vector<Eigen::Index> found(wanted);
-    std::vector<double> distances(wanted);
-    const MotionVector x = points.row(static_cast<Eigen::Index>(i)).transpose();
-    tree.query(x.data(), wanted, found.data(), distances.data());
-    for (std::size_t k = 0; k < wanted; ++k)
-      pairs[i * wanted + k] = std::minmax(static_cast<int>(i), static_cast<int>(found[k]));
+  const std::size_t each = std::min(static_cast<std::size_t>(points.rows()), static_cast<std::size_t>(neighbours) + 1);
+  Pairs pairs(wanted.size() * each);
+  tbb::parallel_for(std::size_t(0), wanted.size(), [&](std::size_t i) {
+    std::vector<Eigen::Index> found(each);
+    std::vector<double> distances(each);
+    const MotionVector x = points.row(wanted[i]).transpose();
+    tree.query(x.data(), each, found.data(), distances.data());
+    for (std::size_t k = 0; k < each; ++k) pairs[i * each + k] = std::minmax(wanted[i], static_cast<int>(found[k]));
   });
   std::erase_if(pairs, [](const auto& pair) { return pair.first == pair.second; });
   std::ranges::sort(pairs);
@@ -62,6 +56,7 @@ class Connector {
   };
   struct Way {
     std::vector<Configuration> between;
+    double clearance = std::numeric_limits<double>::infinity();  // the smallest that was asked for on it
     long distance_queries = 0;
   };
 
@@ -73,16 +68,20 @@ class Connector {
       const Stop middle = pushed_middle(a, b, draw, way);
       const double detour = scene_.space().displacement(a.q, middle.q) + scene_.space().displacement(middle.q, b.q);
       if (middle.clearance > 0 && detour < most_detour * length) {
-        const std::size_t before = way.between.size();
+        const std::size_t bends = way.between.size();
+        const double least = way.clearance;
+        way.clearance = std::min(least, middle.clearance);
         if (join(a, middle, depth - 1, draw, way)) {
           way.between.push_back(middle.q);
           if (join(middle, b, depth - 1, draw, way)) return true;
         }
-        way.between.resize(before);
+        way.between.resize(bends);
+        way.clearance = least;
       }
     }
     const MotionCheck check = free_motion(scene_, a.q, a.clearance, b.q, b.clearance, resolution_);
     way.distance_queries += check.distance_queries;
+    way.clearance = std::min(way.clearance, check.least);
     return check.free;
   }
 
@@ -114,8 +113,10 @@ std::vector<int> components(const std::vector<RoadmapEdge>& edges, std::size_t s
   return number;
 }
 
-// Of each component but the largest, and each other one that is nearest to any of its samples: the nearest samples.
-Pairs pairs_across(const MotionPoints& points, std::vector<int> component, int count) {
+// Of each component but the largest, and each other one that is nearest to any of its samples: the nearest samples,
+// less those pairs that are `known`.
+Pairs pairs_across(const MotionPoints& points, std::vector<int> component, int count,
+                   const std::set<std::pair<int, int>>& known) {
   std::vector<int> sizes(static_cast<std::size_t>(count));
   for (const int each : component) ++sizes[static_cast<std::size_t>(each)];
   const auto largest = static_cast<int>(std::ranges::max_element(sizes) - sizes.begin());
@@ -133,6 +134,7 @@ Pairs pairs_across(const MotionPoints& points, std::vector<int> component, int c
     const auto other = static_cast<int>(others[i].sample);
     const Ends key = std::minmax(labelled.obstacles[i], labelled.obstacles[static_cast<std::size_t>(other)]);
     const std::pair<double, Ends> candidate(others[i].distance, std::minmax(static_cast<int>(i), other));
+    if (known.contains(candidate.second)) continue;
     const auto [at, is_new] = nearest.emplace(key, candidate);
     if (!is_new) at->second = std::min(at->second, candidate);
   }
@@ -143,19 +145,49 @@ Pairs pairs_across(const MotionPoints& points, std::vector<int> component, int c
 
 }  // namespace
 
-Roadmap connected(const Scene& scene, const std::vector<AxisSample>& samples, const Retractor& retract,
-                  const RoadmapSettings& settings, const Progress& progress) {
-  Roadmap roadmap;
-  if (samples.empty()) return roadmap;
-  const MotionPoints points = embedded(scene.space(), samples);
-  const Connector connector(scene, retract, settings);
-  const auto stop = [&](int i) {
-    const AxisSample& sample = samples[static_cast<std::size_t>(i)];
-    return Connector::Stop{sample.q, std::min(sample.state.clearance(), scene.room(sample.q))};
-  };
+struct GrowingRoadmap::State {
+  State(const Scene& the_scene, const Retractor& retract, const RoadmapSettings& the_settings)
+      : scene(the_scene), settings(the_settings), connector(the_scene, retract, the_settings) {}
+
+  const Scene& scene;
+  RoadmapSettings settings;
+  Connector connector;
+  std::vector<AxisSample> samples;
+  MotionPoints points;  // embedded
+  std::vector<int> endpoints;
+  std::size_t connected = 0;  // samples that were joined to their nearest neighbours
   std::uint64_t tried = 0;
+  std::set<std::pair<int, int>> known;  // pairs that were tried and may come up again
+  Roadmap roadmap;
+
+  Connector::Stop stop(int i) const {
+    const AxisSample& sample = samples[static_cast<std::size_t>(i)];
+    return {sample.q, std::min(sample.state.clearance(), scene.room(sample.q))};
+  }
+
+  void take(const std::vector<AxisSample>& more) {
+    samples.insert(samples.end(), more.begin(), more.end());
+    const auto before = points.rows();
+    points.conservativeResize(static_cast<Eigen::Index>(samples.size()), scene.space().embedding());
+    for (Eigen::Index i = before; i < points.rows(); ++i)
+      points.row(i) = scene.space().embedded(samples[static_cast<std::size_t>(i)].q).transpose();
+  }
+
+  RoadmapEdge edge(const std::pair<int, int>& pair, Connector::Way& way) const {
+    RoadmapEdge result{pair.first, pair.second, std::move(way.between)};
+    const Connector::Stop from = stop(pair.first), to = stop(pair.second);
+    result.clearance = std::min({way.clearance, from.clearance, to.clearance});
+    const Configuration* last = &from.q;
+    for (const Configuration& q : result.between) {
+      result.length += scene.space().displacement(*last, q);
+      last = &q;
+    }
+    result.length += scene.space().displacement(*last, to.q);
+    return result;
+  }
+
   // Whether any of the pairs could be joined.
-  const auto join = [&](const Pairs& pairs) {
+  bool join(const Pairs& pairs, const Progress& progress) {
     std::vector<std::pair<bool, Connector::Way>> ways(pairs.size());
     SharedProgress shared(progress, "connect", static_cast<int>(pairs.size()));
     tbb::parallel_for(std::size_t(0), pairs.size(), [&](std::size_t i) {
@@ -169,18 +201,67 @@ Roadmap connected(const Scene& scene, const std::vector<AxisSample>& samples, co
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       auto& [joined, way] = ways[i];
       roadmap.distance_queries += way.distance_queries;
-      if (joined) roadmap.edges.push_back({pairs[i].first, pairs[i].second, std::move(way.between)});
+      if (joined) roadmap.edges.push_back(edge(pairs[i], way));
     }
     return roadmap.edges.size() > before;
-  };
-  bool more = join(near_pairs(points, settings.neighbours));
-  std::vector<int> component = components(roadmap.edges, samples.size(), roadmap.components);
-  while (more && roadmap.components > 1) {
-    more = join(pairs_across(points, std::move(component), roadmap.components));
-    component = components(roadmap.edges, samples.size(), roadmap.components);
   }
-  std::ranges::sort(roadmap.edges, {}, [](const RoadmapEdge& each) { return std::pair(each.from, each.to); });
-  return roadmap;
+
+  // New samples with their nearest neighbours, and endpoints with theirs, as far as they are not known.
+  Pairs near() const {
+    std::vector<int> wanted(samples.size() - connected);
+    std::iota(wanted.begin(), wanted.end(), static_cast<int>(connected));
+    for (const int each : endpoints) {
+      if (static_cast<std::size_t>(each) < connected) wanted.push_back(each);
+    }
+    Pairs pairs = near_pairs(points, wanted, settings.neighbours);
+    std::erase_if(pairs, [&](const auto& pair) { return known.contains(pair); });
+    return pairs;
+  }
+  bool of_endpoint(const std::pair<int, int>& pair) const {
+    return std::ranges::any_of(endpoints, [&](int each) { return each == pair.first || each == pair.second; });
+  }
+
+  void connect(const Progress& progress) {
+    const Pairs pairs = near();
+    join(pairs, progress);
+    connected = samples.size();
+    for (const auto& pair : pairs) {
+      if (of_endpoint(pair)) known.insert(pair);
+    }
+    for (bool more = true; more;) {
+      std::vector<int> component = components(roadmap.edges, samples.size(), roadmap.components);
+      if (roadmap.components == 1) break;
+      const Pairs across = pairs_across(points, std::move(component), roadmap.components, known);
+      more = join(across, progress);
+      known.insert(across.begin(), across.end());
+    }
+    std::ranges::sort(roadmap.edges, {}, [](const RoadmapEdge& each) { return std::pair(each.from, each.to); });
+  }
+};
+
+GrowingRoadmap::GrowingRoadmap(const Scene& scene, const Retractor& retract, const RoadmapSettings& settings)
+    : state_(std::make_unique<State>(scene, retract, settings)) {}
+GrowingRoadmap::~GrowingRoadmap() = default;
+
+const std::vector<AxisSample>& GrowingRoadmap::samples() const { return state_->samples; }
+const Roadmap& GrowingRoadmap::roadmap() const { return state_->roadmap; }
+
+int GrowingRoadmap::add_endpoint(const Configuration& q) {
+  state_->take({{q, axis_state(state_->scene, q)}});
+  state_->endpoints.push_back(static_cast<int>(state_->samples.size()) - 1);
+  return state_->endpoints.back();
+}
+
+void GrowingRoadmap::add(const std::vector<AxisSample>& samples, const Progress& progress) {
+  state_->take(samples);
+  if (!state_->samples.empty()) state_->connect(progress);
+}
+
+Roadmap connected(const Scene& scene, const std::vector<AxisSample>& samples, const Retractor& retract,
+                  const RoadmapSettings& settings, const Progress& progress) {
+  GrowingRoadmap growing(scene, retract, settings);
+  growing.add(samples, progress);
+  return growing.roadmap();
 }
 
 }  // namespace partwise

@@ -9,11 +9,15 @@
 // Samples come in clusters, whose nearest neighbours are each other. So components are then joined to each other, by
 // the nearest samples of each two that lie next to each other, until no further edge is found.
 //
+// connected() joins what is there. A GrowingRoadmap is given more and more, until a path is found (axis_planner.h):
+// new samples are joined to all, then components as before, and endpoints to their nearest neighbours anew. After
+// Cancelled it goes on where it was.
+//
 // The same for any number of threads. Errors: Cancelled.
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "partwise/base/progress.h"
@@ -32,12 +36,32 @@ struct RoadmapSettings {
 struct RoadmapEdge {
   int from = 0, to = 0;                // samples, from < to
   std::vector<Configuration> between;  // where it bends, on the axis
+  double length = 0;                   // displacement
+  double clearance = 0;                // the smallest that is known: at its ends, its bends, and where it was checked
 };
 
 struct Roadmap {
   std::vector<RoadmapEdge> edges;  // by from, then to
   int components = 0;              // of samples that edges join
   long distance_queries = 0;
+};
+
+class GrowingRoadmap {
+ public:
+  // Which must outlive this.
+  GrowingRoadmap(const Scene& scene, const Retractor& retract, const RoadmapSettings& settings = {});
+  ~GrowingRoadmap();
+
+  // A configuration that paths start or end at, free and within the bounds; its number among the samples.
+  int add_endpoint(const Configuration& q);
+  void add(const std::vector<AxisSample>& samples, const Progress& progress = {});
+
+  const std::vector<AxisSample>& samples() const;  // endpoints among them
+  const Roadmap& roadmap() const;                  // of all that was added before the last add()
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 Roadmap connected(const Scene& scene, const std::vector<AxisSample>& samples, const Retractor& retract,

@@ -47,30 +47,41 @@ World mesh_world(const Mesh& mesh, const WorldSettings& settings, const Progress
           contact_samples(parts.hulls, parts.owners, settings.contacts)};
 }
 
-World problem_world(const PlanningProblem& problem, const ProblemWorldSettings& settings, const Progress& progress) {
-  World world;
+ProblemScene problem_scene(const PlanningProblem& problem, const ProblemWorldSettings& settings,
+                           const Progress& progress) {
   if (!problem.footprints.empty()) {
     PARTWISE_CHECK(problem.robot.size(), ==, 0u);  // footprints are a point's
-    const PlanarParts parts = planar_parts(problem.footprints, settings.tolerance, settings.whole, progress);
+    const auto parts = std::make_shared<const PlanarParts>(
+        planar_parts(problem.footprints, settings.tolerance, settings.whole, progress));
     const Eigen::AlignedBox2d bounds(problem.bounds.min().head<2>(), problem.bounds.max().head<2>());
-    world = planar_world(parts, bounds, settings.contacts.samples);
-  } else {
-    const SolidParts parts = solid_parts(problem.obstacles, settings.tolerance, settings.whole, progress);
-    if (!problem.robot.empty()) {
-      world.scene = body_scene(problem.kind, problem.bounds, problem.robot, parts.obstacles, parts.solid);
-      const SolidParts bodies = solid_parts(problem.robot, settings.tolerance, true, progress);
-      world.contacts =
-          body_contacts(world.scene->space(), bodies.hulls, parts.hulls, parts.owners, settings.contacts, progress);
-    } else {
-      if (problem.kind != SpaceKind::space)
-        throw InputError(problem.name, "has a point among meshes for a robot, outside of space",
-                         "give the robot a body, or plan in space");
-      world.scene = point_scene(parts.obstacles, parts.solid, problem.bounds);
-      world.contacts = contact_samples(parts.hulls, parts.owners, settings.contacts.samples);
-    }
+    return {bounded_scene(point_scene(parts->obstacles, bounds), problem),
+            [parts, each = settings.contacts.samples](const Progress&) {
+              return contact_samples(parts->hulls, parts->owners, each);
+            }};
   }
-  world.scene = bounded_scene(std::move(world.scene), problem);
-  return world;
+  const auto parts =
+      std::make_shared<const SolidParts>(solid_parts(problem.obstacles, settings.tolerance, settings.whole, progress));
+  if (problem.robot.empty()) {
+    if (problem.kind != SpaceKind::space)
+      throw InputError(problem.name, "has a point among meshes for a robot, outside of space",
+                       "give the robot a body, or plan in space");
+    return {bounded_scene(point_scene(parts->obstacles, parts->solid, problem.bounds), problem),
+            [parts, each = settings.contacts.samples](const Progress&) {
+              return contact_samples(parts->hulls, parts->owners, each);
+            }};
+  }
+  const std::vector<Mesh> bodies = solid_parts(problem.robot, settings.tolerance, true, progress).hulls;
+  std::shared_ptr<const Scene> scene =
+      bounded_scene(body_scene(problem.kind, problem.bounds, problem.robot, parts->obstacles, parts->solid), problem);
+  const ConfigurationSpace space = scene->space();
+  return {std::move(scene), [parts, bodies, space, contacts = settings.contacts](const Progress& making) {
+            return body_contacts(space, bodies, parts->hulls, parts->owners, contacts, making);
+          }};
+}
+
+World problem_world(const PlanningProblem& problem, const ProblemWorldSettings& settings, const Progress& progress) {
+  const ProblemScene made = problem_scene(problem, settings, progress);
+  return {made.scene, made.contacts(progress)};
 }
 
 }  // namespace partwise

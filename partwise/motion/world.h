@@ -14,6 +14,7 @@
 // of decomposition and scenes.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -39,13 +40,22 @@ struct ProblemWorldSettings {
 };
 
 struct World {
-  std::unique_ptr<Scene> scene;
+  std::shared_ptr<const Scene> scene;
   ContactSamples contacts;
+};
+
+// A problem's scene, and its contact samples for who asks for them, made anew each time: Minkowski sums take their
+// time, and belong to what training a field costs.
+struct ProblemScene {
+  std::shared_ptr<const Scene> scene;
+  std::function<ContactSamples(const Progress&)> contacts;
 };
 
 World city_world(const City& city, const WorldSettings& settings = {}, const Progress& progress = {});
 World mesh_world(const Mesh& mesh, const WorldSettings& settings = {}, const Progress& progress = {});
 World problem_world(const PlanningProblem& problem, const ProblemWorldSettings& settings = {},
                     const Progress& progress = {});
+ProblemScene problem_scene(const PlanningProblem& problem, const ProblemWorldSettings& settings = {},
+                           const Progress& progress = {});
 
 }  // namespace partwise

@@ -6,13 +6,18 @@
 #endif
 
 #include <cmath>
+#include <filesystem>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "learning_verbs.h"
 #include "options.h"
 #include "partwise/editing/editing_training.h"
+#include "partwise/learning/training_file.h"
+#include "partwise/normals/prediction/normal_training.h"
 #include "verbs.h"
 
 namespace partwise::cli {
@@ -23,13 +28,31 @@ struct Options {
   bool resume = false;
 };
 
-EditingTraining read_config(const Options& options, const Run& run) {
-  EditingTraining training = read_editing_training(options.config, run.seed);
+// One of the project's trainings, ready to run.
+struct Training {
+  std::filesystem::path output;
+  std::function<TrainingReport(const Rank& rank, const Progress& progress)> run;
+};
+
+template <typename Of>
+Training prepared(const Options& options, Of training,
+                  TrainingReport (*run)(const Of&, const Rank&, bool, const Progress&)) {
   if (!options.output.empty()) training.loop.output = options.output;
   if (training.loop.output.empty()) {
     throw InputError(options.config, "names no output folder", "give it \"output\", or the option -o");
   }
-  return training;
+  const std::filesystem::path output = training.loop.output;
+  return {output, [training = std::move(training), run, resume = options.resume](
+                      const Rank& rank, const Progress& progress) { return run(training, rank, resume, progress); }};
+}
+
+Training read_config(const Options& options, const Run& run) {
+  const std::string network = network_to_train(options.config);
+  if (network == "normals") return prepared(options, read_normal_training(options.config, run.seed), train_normals);
+  if (network == "editing" || network == "encoder_decoder")
+    return prepared(options, read_editing_training(options.config, run.seed), train_editing);
+  throw InputError(options.config, fmt::format("network \"{}\" is none that is known", network),
+                   "write editing, encoder_decoder or normals");
 }
 
 // Every step asks for the same large tensors: what is freed stays with the process, where giving it back and having it
@@ -44,21 +67,20 @@ void keep_freed_memory() {
 
 void train_network(const Options& options, Run& run) {
   run.outputs.add_input("CONFIG", options.config);
-  const EditingTraining training = run.stage("read", [&] { return read_config(options, run); });
+  const Training training = run.stage("read", [&] { return read_config(options, run); });
   const Rank rank = rank_from_environment();
   keep_freed_memory();
   run.if_stopped = "a checkpoint was written, and --resume goes on from there";
-  const TrainingReport report =
-      run.stage("train", [&] { return train_editing(training, rank, options.resume, run.progress); });
+  const TrainingReport report = run.stage("train", [&] { return training.run(rank, run.progress); });
   run.report["step"] = report.step;
   run.report["loss"] = report.loss;
   if (std::isfinite(report.best)) run.report["validation_loss"] = report.best;
   run.report["rank"] = rank.rank;
   run.report["ranks"] = rank.size;
   run.report["input"] = options.config;
-  run.report["output"] = training.loop.output.string();
+  run.report["output"] = training.output.string();
   run.summary = fmt::format("{}: {} steps, loss {:.5g}\nwrote into {}", options.config, report.step, report.loss,
-                            training.loop.output.string());
+                            training.output.string());
 }
 
 Action add(CLI::App& command) {

@@ -8,7 +8,7 @@
 namespace partwise::cli {
 
 namespace {
-constexpr std::array list = {&train_verb, &edit_verb};
+constexpr std::array list = {&train_verb, &edit_verb, &normals_verb};
 }
 
 std::span<const Verb* const> verbs() { return list; }

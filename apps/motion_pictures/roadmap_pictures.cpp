@@ -1,4 +1,4 @@
-#include "roadmap_pictures.h"
+#include "motion_pictures/roadmap_pictures.h"
 
 #include <fmt/format.h>
 
@@ -10,10 +10,9 @@
 #include <vector>
 
 #include "partwise/appearance/palette.h"
-#include "partwise/base/atomic_file.h"
 #include "partwise/geometry/mesh_io.h"
 
-namespace partwise::cli {
+namespace partwise {
 namespace {
 
 constexpr int levels = 12;  // of clearance, each with a colour
@@ -83,8 +82,8 @@ Mesh tubes(const std::vector<Point>& vertices) {
 
 }  // namespace
 
-void write_roadmap_svg(const std::filesystem::path& path, const std::vector<Polygons>& obstacles,
-                       const std::vector<AxisSample>& samples, const Roadmap& roadmap) {
+std::string roadmap_svg(const std::vector<Polygons>& obstacles, const std::vector<AxisSample>& samples,
+                        const Roadmap& roadmap, const std::vector<MotionPath>& ways) {
   Eigen::AlignedBox2d box;
   for (const Polygons& each : obstacles) box.extend(bounding_box(each));
   for (const AxisSample& each : samples) box.extend(Eigen::Vector2d(each.q.head<2>()));
@@ -115,25 +114,43 @@ void write_roadmap_svg(const std::filesystem::path& path, const std::vector<Poly
   text += "\"/>\n";
   const Levels by(samples, roadmap);
   std::vector<std::string> paths(levels);
-  for (std::size_t e = 0; e < roadmap.edges.size(); ++e) {
-    std::string& line = paths[static_cast<std::size_t>(by.of(e))];
+  const auto add_line = [&](const std::vector<Configuration>& line, std::string& to) {
     char verb = 'M';
-    for (const Configuration& q : polyline(roadmap.edges[e], samples)) {
-      line += verb;
-      line += point(q[0], q[1]);
+    for (const Configuration& q : line) {
+      to += verb;
+      to += point(q[0], q[1]);
       verb = 'L';
     }
-  }
+  };
+  for (std::size_t e = 0; e < roadmap.edges.size(); ++e)
+    add_line(polyline(roadmap.edges[e], samples), paths[static_cast<std::size_t>(by.of(e))]);
   for (int level = 0; level < levels; ++level) {
     text += fmt::format("<path fill=\"none\" stroke-width=\"1.2\" stroke=\"{}\" d=\"{}\"/>\n",
                         hex(Levels::colour(level)), paths[static_cast<std::size_t>(level)]);
   }
-  write_file(path, text + "</svg>\n");
+  constexpr std::array<const char*, 2> way_colours{"#c8102e", "#ff8200"};
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    std::string line;
+    add_line(ways[i].configurations, line);
+    text += fmt::format("<path fill=\"none\" stroke-width=\"4\" stroke-linejoin=\"round\" stroke=\"{}\" d=\"{}\"/>\n",
+                        way_colours[i % way_colours.size()], line);
+  }
+  return text + "</svg>\n";
 }
 
-void write_roadmap_glb(const std::filesystem::path& path, const Mesh& obstacles, const std::vector<AxisSample>& samples,
-                       const Roadmap& roadmap) {
-  const double radius = 0.0015 * bounding_sphere(obstacles).radius;
+Mesh tube_along(const std::vector<Eigen::Vector3d>& line, double radius) {
+  std::vector<Point> vertices;
+  for (std::size_t i = 1; i < line.size(); ++i) add_tube(line[i - 1], line[i], radius, vertices);
+  return tubes(vertices);
+}
+
+void write_roadmap_glb(const std::filesystem::path& path, const std::vector<Mesh>& obstacles,
+                       const std::vector<AxisSample>& samples, const Roadmap& roadmap) {
+  Eigen::AlignedBox3d box;
+  for (const Mesh& mesh : obstacles) {
+    for (const auto& vertex : mesh.vertices.rowwise()) box.extend(vertex.transpose());
+  }
+  const double radius = 0.00075 * box.diagonal().norm();
   const Levels by(samples, roadmap);
   std::vector<std::vector<Point>> vertices(levels);
   for (std::size_t e = 0; e < roadmap.edges.size(); ++e) {
@@ -142,7 +159,8 @@ void write_roadmap_glb(const std::filesystem::path& path, const Mesh& obstacles,
       add_tube(points[i - 1].head<3>(), points[i].head<3>(), radius, vertices[static_cast<std::size_t>(by.of(e))]);
     }
   }
-  std::vector<NamedMesh> meshes = {{"obstacles", obstacles}};
+  std::vector<NamedMesh> meshes;
+  for (const Mesh& mesh : obstacles) meshes.push_back({"obstacle", mesh});
   for (int level = 0; level < levels; ++level) {
     const auto& tube = vertices[static_cast<std::size_t>(level)];
     if (!tube.empty()) meshes.push_back({fmt::format("axis {}", level), tubes(tube), Levels::colour(level)});
@@ -150,4 +168,4 @@ void write_roadmap_glb(const std::filesystem::path& path, const Mesh& obstacles,
   write_meshes(path, meshes);
 }
 
-}  // namespace partwise::cli
+}  // namespace partwise

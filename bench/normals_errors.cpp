@@ -1,0 +1,116 @@
+// How well networks read normals off pictures: views that no training has seen in materials and light that none has
+// seen, as bench/edit_cases.h makes them.
+//
+//   normals_errors VIEWS... --weights F.pt... [--count 500] [--parts]
+//
+// One JSON line a network: "weights", "pictures"; "all", "edges", "curved" and "smooth", the figures of
+// normals/truth/normal_measures.h where normal_detail.h says, with the pixels of all pictures pooled; "cosine", the
+// mean over pictures of each one's mean; and of the picture rendered with the normals that were found and the true
+// material and light "l2", "ssim", "l2_frame" and "ssim_frame", exposed as the true one, means over pictures.
+#include <ATen/Functions.h>
+#include <ATen/TensorOperators.h>
+#include <CLI/CLI.hpp>
+
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "bench/edit_cases.h"
+#include "bench/picture_difference.h"
+#include "bench/tool.h"
+#include "partwise/appearance/material/material_files.h"
+#include "partwise/editing/image_tensors.h"
+#include "partwise/normals/prediction/normal_predictor.h"
+#include "partwise/normals/truth/normal_detail.h"
+
+namespace {
+
+using namespace partwise;
+using nlohmann::ordered_json;
+
+struct Options {
+  std::vector<std::string> views, weights, lights = {"lobby", "night", "sunrise", "venice"};
+  int count = 500;
+  bench::EditCaseSettings cases{.targets = false};
+};
+
+ordered_json json_of(const NormalMeasure& measure) {
+  const NormalErrors errors = measure.errors();
+  return {{"pixels", errors.pixels}, {"mean", errors.mean},         {"median", errors.median},
+          {"rmse", errors.rmse},     {"below", errors.share_below}, {"cosine", errors.cosine}};
+}
+
+// One network's figures so far.
+class Judge {
+ public:
+  explicit Judge(const std::string& weights) : weights_(weights), predictor_(read_normal_predictor(weights)) {}
+
+  void look(const bench::EditCase& truth, int map_size) {
+    const at::Tensor normals = predictor_(truth.picture), mask = truth.mask();
+    detail_.add(image_of(normals[0]), image_of(truth.normals[0]));
+    add("cosine", ((normals * truth.normals).sum() / mask.sum()).item<double>());
+    const at::Tensor image = bench::image_of_maps(normals, truth.regions, truth.maps, map_size);
+    const ordered_json errors = bench::difference(image, truth.image, mask).at("same_exposure");
+    for (const auto& [name, value] : errors.items()) add(name, value.get<double>());
+  }
+
+  ordered_json figures(int pictures) const {
+    ordered_json json = {{"weights", weights_}, {"pictures", pictures}};
+    for (const auto& [name, of] : {std::pair{"all", &detail_.all},
+                                   {"edges", &detail_.edges},
+                                   {"curved", &detail_.curved},
+                                   {"smooth", &detail_.smooth}})
+      json[name] = json_of(*of);
+    for (const auto& [name, mean] : means_) json[name] = mean.sum / mean.count;
+    return json;
+  }
+
+ private:
+  struct Mean {
+    double sum = 0;
+    int count = 0;
+  };
+  void add(const std::string& name, double value) {
+    means_[name].sum += value;
+    ++means_[name].count;
+  }
+
+  std::string weights_;
+  NormalPredictor predictor_;
+  DetailMeasure detail_;
+  std::map<std::string, Mean> means_;
+};
+
+int judge(const Options& options) {
+  const at::NoGradGuard no_gradient;
+  std::vector<Judge> judges(options.weights.begin(), options.weights.end());
+  const StoredViews views({options.views.begin(), options.views.end()});
+  std::vector<DsbrdfCoefficients> materials;
+  for (const std::string& name : test_materials()) materials.push_back(shipped_material(name).brdf.coefficients());
+  std::vector<EnvironmentLight> lights;
+  for (const std::string& name : options.lights) lights.push_back(named_light(name));
+  const bench::EditCases cases(views, materials, lights, options.cases);
+  for (int i = 0; i < options.count; ++i) {
+    const bench::EditCase truth = cases(i);
+    for (Judge& each : judges) each.look(truth, options.cases.map_size);
+  }
+  for (const Judge& each : judges) std::cout << each.figures(options.count).dump() << std::endl;
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app("How well networks read normals off pictures");
+  app.add_option("views", options.views, "folders of shards")->required();
+  app.add_option("--weights", options.weights, "of networks for normals, or of editing")->required();
+  app.add_option("--count", options.count, "pictures")->check(CLI::PositiveNumber);
+  app.add_option("--map-size", options.cases.map_size, "of reflectance maps")->check(CLI::Range(8, 512));
+  app.add_option("--lights", options.lights, "that pictures are lit by");
+  app.add_option("--seed", options.cases.seed);
+  app.add_flag("--parts", options.cases.parts, "each part of a view in a material of its own");
+  return bench::run_tool("normals_errors", app, argc, argv, [&] { return judge(options); });
+}

@@ -1,0 +1,60 @@
+#include "partwise/normals/prediction/photo_normals.h"
+
+#include <ATen/Functions.h>
+#include <ATen/TensorOperators.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "partwise/editing/image_tensors.h"
+#include "partwise/learning/network_blocks.h"
+
+namespace partwise {
+namespace {
+
+constexpr float covered = 0.5f;
+
+Image object_of(const Photo& photo) {
+  Image object(photo.shown.width, photo.shown.height, 1);
+  for (const Image& region : photo.regions)
+    std::ranges::transform(object.values, region.values, object.values.begin(), std::plus<>());
+  return object;
+}
+
+// Pixels without a normal take the mean of those about them that have one, ring by ring until all have.
+at::Tensor grown(at::Tensor normals) {
+  for (std::int64_t ring = 0; ring < normals.size(3); ++ring) {
+    const at::Tensor empty = normals.square().sum(1, true) == 0;
+    if (!empty.any().item<bool>()) break;
+    const at::Tensor about = at::avg_pool2d(normals, {3, 3}, {1, 1}, {1, 1});
+    normals = at::where(empty, unit_vectors(about), normals);
+  }
+  return normals;
+}
+
+}  // namespace
+
+Image photo_normals(const NormalPredictor& predictor, const Photo& photo) {
+  const at::NoGradGuard no_gradient;
+  const std::int64_t size = predictor.settings().size;
+  const Image object = object_of(photo);
+  const Crop crop = crop_of(photo);
+  const auto square = [&](const Image& image) { return cropped(image, crop.x, crop.y, crop.side); };
+  const at::Tensor mask = (resized(square(object), size) > covered).to(at::kFloat);
+  const at::Tensor colours = resized(square(photo.shown), size);
+  const at::Tensor found = predictor(at::cat({colours * mask, mask}, 1));
+  const Image normals = image_of(resized(grown(found), crop.side)[0]);
+
+  Image result(photo.shown.width, photo.shown.height, 3);
+  for (int y = std::max(0, -crop.y); y < std::min(crop.side, result.height - crop.y); ++y) {
+    for (int x = std::max(0, -crop.x); x < std::min(crop.side, result.width - crop.x); ++x) {
+      if (*object.pixel(x + crop.x, y + crop.y) <= covered) continue;
+      const float* from = normals.pixel(x, y);
+      const float length = std::hypot(from[0], from[1], from[2]);
+      for (int k = 0; k < 3 && length > 0; ++k) result.pixel(x + crop.x, y + crop.y)[k] = from[k] / length;
+    }
+  }
+  return result;
+}
+
+}  // namespace partwise

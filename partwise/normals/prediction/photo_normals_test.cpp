@@ -1,0 +1,80 @@
+#include "partwise/normals/prediction/photo_normals.h"
+
+#include <ATen/TensorOperators.h>
+#include <gtest/gtest.h>
+#include <torch/nn/module.h>
+#include <torch/utils.h>
+
+#include <cmath>
+
+#include "partwise/base/shared_files.h"
+#include "partwise/editing/image_tensors.h"
+#include "partwise/editing/test_editing.h"
+
+namespace partwise {
+namespace {
+
+NormalPredictor network() {
+  torch::manual_seed(1);
+  NormalPredictor predictor(NormalPredictorSettings{});
+  predictor.module().eval();
+  return predictor;
+}
+
+// A disc of a radius on a photo, its right half brighter, and a line of one pixel off it.
+Photo disc(int width, int height, int radius) {
+  Photo photo{Image(width, height, 3, 0.8f), {Image(width, height, 1)}, Image(width, height, 1, 1)};
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const bool line = y == height / 2 && x < width - 2;
+      if (!line && std::hypot(x - width / 2, y - height / 2) > radius) continue;
+      *photo.regions[0].pixel(x, y) = 1;
+      photo.shown.pixel(x, y)[0] = x > width / 2 ? 0.9f : 0.3f;
+    }
+  }
+  return photo;
+}
+
+TEST(PhotoNormals, EveryPixelOfTheObjectHasOneAndNoOther) {
+  const NormalPredictor predictor = network();
+  for (const auto& [width, height, radius] : {std::tuple{40, 30, 10}, {300, 200, 60}, {200, 700, 80}}) {
+    const Photo photo = disc(width, height, radius);
+    const Image normals = photo_normals(predictor, photo);
+    ASSERT_EQ(normals.width, width);
+    ASSERT_EQ(normals.height, height);
+    for (std::size_t i = 0; i < photo.alpha.values.size(); ++i) {
+      const float* n = &normals.values[3 * i];
+      ASSERT_NEAR(std::hypot(n[0], n[1], n[2]), photo.regions[0].values[i], 1e-5) << "pixel " << i;
+    }
+  }
+}
+
+// A photo that is the network's picture already: what the network finds, pixel by pixel.
+TEST(PhotoNormals, AreThoseOfTheNetwork) {
+  const NormalPredictor predictor = network();
+  constexpr int radius = 51;
+  Photo photo = disc(128, 128, radius);
+  for (int x = 0; x < 128; ++x) {  // no line
+    if (std::abs(x - 64) > radius) *photo.regions[0].pixel(x, 64) = 0;
+  }
+  const Crop crop = crop_of(photo);
+  ASSERT_EQ(crop.side, 128);
+  ASSERT_EQ(crop.x, 0);
+  ASSERT_EQ(crop.y, 0);
+  const at::NoGradGuard no_gradient;
+  const at::Tensor mask = planes_of(photo.regions[0]).unsqueeze(0);
+  const at::Tensor found = predictor(at::cat({planes_of(photo.shown).unsqueeze(0) * mask, mask}, 1));
+  EXPECT_LT((planes_of(photo_normals(predictor, photo)) - found[0]).abs().max().item<double>(), 1e-5);
+}
+
+// Pictures of shipped models: what ships tells left from right and up from down.
+TEST(PhotoNormals, OfWhatShipsFaceTheWayTheSurfaceDoes) {
+  const NormalPredictor predictor = read_normal_predictor(shared_file("models/networks/editing.pt"));
+  const EditBatch batch = test::samples(false).batch(0, {0, 4, 4});
+  const at::NoGradGuard no_gradient;
+  const double cosine = ((predictor(batch.pictures) * batch.normals).sum() / batch.mask().sum()).item<double>();
+  EXPECT_GT(cosine, 0.75);
+}
+
+}  // namespace
+}  // namespace partwise
