@@ -74,7 +74,7 @@ void write_picture(const std::filesystem::path& path, std::vector<PreviewPoints>
 
 void write_cage_picture(const std::filesystem::path& path, const Mesh& mesh, const Mesh& cage) {
   PreviewScene scene;
-  scene.meshes.push_back({.mesh = mesh, .colour = Eigen::Vector3f(0.75f, 0.42f, 0.16f)});
+  scene.meshes.push_back({.mesh = mesh, .face_colours = {}, .colour = Eigen::Vector3f(0.75f, 0.42f, 0.16f)});
   forget_unused(scene.meshes[0].mesh);
   const double thickness = 0.004 * bounding_sphere(cage).radius;
   for_each_edge(sorted_half_edges(cage), [&](std::span<const HalfEdge> edge) {
