@@ -2,9 +2,11 @@
 
 #include <ATen/Functions.h>
 #include <ATen/TensorOperators.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 
+#include "partwise/appearance/material/material_files.h"
 #include "partwise/base/draw.h"
 #include "partwise/base/error.h"
 #include "partwise/editing/editing_networks.h"
@@ -40,12 +42,21 @@ at::Tensor maps_of(const at::Tensor& materials, const at::Tensor& radiance, int 
 
 }  // namespace
 
-EditCases::EditCases(const StoredViews& views, const std::vector<DsbrdfCoefficients>& materials,
-                     const std::vector<EnvironmentLight>& lights, const EditCaseSettings& settings)
+void add_options(CLI::App& app, JudgedPictures& pictures) {
+  app.add_option("views", pictures.views, "folders of shards")->required();
+  app.add_option("--count", pictures.count, "pictures")->check(CLI::PositiveNumber);
+  app.add_option("--map-size", pictures.cases.map_size, "of reflectance maps")->check(CLI::Range(8, 512));
+  app.add_option("--lights", pictures.lights, "that pictures are lit by");
+  app.add_option("--seed", pictures.cases.seed);
+  app.add_flag("--parts", pictures.cases.parts, "each part of a view in a material of its own");
+}
+
+EditCases::EditCases(const StoredViews& views, const std::vector<std::string>& materials,
+                     const std::vector<std::string>& lights, const EditCaseSettings& settings)
     : views_(views), settings_(settings) {
   PARTWISE_CHECK(views_.size(), >, 0);
-  for (const DsbrdfCoefficients& each : materials) materials_.push_back(as_tensor(each));
-  for (const EnvironmentLight& each : lights) lights_.push_back(each.resized(light_columns, light_rows));
+  for (const std::string& each : materials) materials_.push_back(as_tensor(shipped_material(each).brdf.coefficients()));
+  for (const std::string& each : lights) lights_.push_back(named_light(each).resized(light_columns, light_rows));
 }
 
 EditCase EditCases::operator()(int number) const {

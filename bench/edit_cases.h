@@ -5,11 +5,15 @@
 #include <ATen/core/Tensor.h>
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
-#include "partwise/appearance/material/dsbrdf.h"
 #include "partwise/appearance/rendering/environment_light.h"
 #include "partwise/learning/stored_views.h"
+
+namespace CLI {
+class App;
+}
 
 namespace partwise::bench {
 
@@ -33,10 +37,20 @@ struct EditCaseSettings {
   bool targets = true;  // rendered as well
 };
 
+// What tools that judge networks are told about the pictures. Lights: those that no training of ours sees.
+struct JudgedPictures {
+  std::vector<std::string> views, lights = {"lobby", "night", "sunrise", "venice"};
+  int count = 500;
+  EditCaseSettings cases;
+};
+
+void add_options(CLI::App& app, JudgedPictures& pictures);
+
 class EditCases {
  public:
-  EditCases(const StoredViews& views, const std::vector<DsbrdfCoefficients>& materials,
-            const std::vector<EnvironmentLight>& lights, const EditCaseSettings& settings);
+  // Shipped materials and lights by name; light files as well.
+  EditCases(const StoredViews& views, const std::vector<std::string>& materials, const std::vector<std::string>& lights,
+            const EditCaseSettings& settings);
 
   EditCase operator()(int number) const;
 

@@ -39,9 +39,7 @@ using nlohmann::ordered_json;
 
 struct Options {
   std::string weights, materials = "test";
-  std::vector<std::string> views, lights = {"lobby", "night", "sunrise", "venice"};
-  int count = 500;
-  bench::EditCaseSettings cases;
+  bench::JudgedPictures pictures;
   bool given = false, known_normals = false, refine = false;
   RefinementSettings refinement;
 };
@@ -49,18 +47,6 @@ struct Options {
 // Mean over the regions.
 double material_error(const at::Tensor& scaled, const EditCase& truth, const MaterialRange& range) {
   return (scaled - range.scaled(truth.materials)).square().sum(1).mean().item<double>();
-}
-
-std::vector<DsbrdfCoefficients> named_materials(const std::vector<std::string>& names) {
-  std::vector<DsbrdfCoefficients> result;
-  for (const std::string& name : names) result.push_back(shipped_material(name).brdf.coefficients());
-  return result;
-}
-
-std::vector<EnvironmentLight> named_lights(const std::vector<std::string>& names) {
-  std::vector<EnvironmentLight> result;
-  for (const std::string& name : names) result.push_back(named_light(name));
-  return result;
 }
 
 ordered_json redrawn(const EncoderDecoder& network, const EditCase& truth) {
@@ -108,8 +94,8 @@ class Reader {
   PictureLayers optimised(const EditCase& truth) const {
     const auto regions = static_cast<std::int64_t>(truth.regions.size());
     std::vector<at::Tensor> materials;
-    for (const DsbrdfCoefficients& each : named_materials(training_materials()))
-      materials.push_back(range_.scaled(as_tensor(each).unsqueeze(0)));
+    for (const std::string& each : training_materials())
+      materials.push_back(range_.scaled(as_tensor(shipped_material(each).brdf.coefficients()).unsqueeze(0)));
     const PictureLayers start{truth.normals, at::cat(materials).mean(0, true).expand({regions, -1}).contiguous(),
                               log_of_radiance(at::ones_like(truth.radiance))};
     RefinementSettings settings;
@@ -122,7 +108,7 @@ class Reader {
 
   at::Tensor shown(const PictureLayers& found, const at::Tensor& materials, const EditCase& truth) const {
     return bench::image_of_regions(found.normals, truth.regions, materials, radiance_of_log(found.log_radiance),
-                                   options_.cases.map_size);
+                                   options_.pictures.cases.map_size);
   }
 
   void add(ordered_json& json, const std::string& name, const PictureLayers& found, const EditCase& truth) const {
@@ -146,10 +132,11 @@ int judge(const Options& options) {
   } else {
     reader.emplace(read_editing_networks(options.weights), options);
   }
-  const StoredViews views({options.views.begin(), options.views.end()});
+  const bench::JudgedPictures& pictures = options.pictures;
+  const StoredViews views({pictures.views.begin(), pictures.views.end()});
   const auto names = options.materials == "test" ? test_materials() : training_materials();
-  const bench::EditCases cases(views, named_materials(names), named_lights(options.lights), options.cases);
-  for (int i = 0; i < options.count; ++i) {
+  const bench::EditCases cases(views, names, pictures.lights, pictures.cases);
+  for (int i = 0; i < pictures.count; ++i) {
     const EditCase truth = cases(i);
     ordered_json json = {{"picture", i}, {"regions", truth.regions.size()}};
     json.update(peer ? redrawn(*peer, truth) : (*reader)(truth));
@@ -164,13 +151,8 @@ int main(int argc, char** argv) {
   Options options;
   CLI::App app("How well networks edit");
   app.add_option("weights", options.weights, "of networks of editing")->required();
-  app.add_option("views", options.views, "folders of shards")->required();
-  app.add_option("--count", options.count, "pictures")->check(CLI::PositiveNumber);
-  app.add_option("--map-size", options.cases.map_size, "of reflectance maps")->check(CLI::Range(8, 512));
+  bench::add_options(app, options.pictures);
   app.add_option("--materials", options.materials)->check(CLI::IsMember({"test", "training"}));
-  app.add_option("--lights", options.lights, "that pictures are lit by");
-  app.add_option("--seed", options.cases.seed);
-  app.add_flag("--parts", options.cases.parts, "each part of a view in a material of its own");
   CLI::Option* given = app.add_flag("--given", options.given, "true normals and light");
   app.add_flag("--known-normals", options.known_normals, "true normals, the rest optimised")->excludes(given);
   app.add_flag("--refine", options.refine, "after refinement as well");

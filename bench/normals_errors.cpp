@@ -31,9 +31,8 @@ using namespace partwise;
 using nlohmann::ordered_json;
 
 struct Options {
-  std::vector<std::string> views, weights, lights = {"lobby", "night", "sunrise", "venice"};
-  int count = 500;
-  bench::EditCaseSettings cases{.targets = false};
+  std::vector<std::string> weights;
+  bench::JudgedPictures pictures;
 };
 
 ordered_json json_of(const NormalMeasure& measure) {
@@ -86,17 +85,14 @@ class Judge {
 int judge(const Options& options) {
   const at::NoGradGuard no_gradient;
   std::vector<Judge> judges(options.weights.begin(), options.weights.end());
-  const StoredViews views({options.views.begin(), options.views.end()});
-  std::vector<DsbrdfCoefficients> materials;
-  for (const std::string& name : test_materials()) materials.push_back(shipped_material(name).brdf.coefficients());
-  std::vector<EnvironmentLight> lights;
-  for (const std::string& name : options.lights) lights.push_back(named_light(name));
-  const bench::EditCases cases(views, materials, lights, options.cases);
-  for (int i = 0; i < options.count; ++i) {
+  const bench::JudgedPictures& pictures = options.pictures;
+  const StoredViews views({pictures.views.begin(), pictures.views.end()});
+  const bench::EditCases cases(views, test_materials(), pictures.lights, pictures.cases);
+  for (int i = 0; i < pictures.count; ++i) {
     const bench::EditCase truth = cases(i);
-    for (Judge& each : judges) each.look(truth, options.cases.map_size);
+    for (Judge& each : judges) each.look(truth, pictures.cases.map_size);
   }
-  for (const Judge& each : judges) std::cout << each.figures(options.count).dump() << std::endl;
+  for (const Judge& each : judges) std::cout << each.figures(pictures.count).dump() << std::endl;
   return 0;
 }
 
@@ -104,13 +100,9 @@ int judge(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
+  options.pictures.cases.targets = false;
   CLI::App app("How well networks read normals off pictures");
-  app.add_option("views", options.views, "folders of shards")->required();
+  bench::add_options(app, options.pictures);
   app.add_option("--weights", options.weights, "of networks for normals, or of editing")->required();
-  app.add_option("--count", options.count, "pictures")->check(CLI::PositiveNumber);
-  app.add_option("--map-size", options.cases.map_size, "of reflectance maps")->check(CLI::Range(8, 512));
-  app.add_option("--lights", options.lights, "that pictures are lit by");
-  app.add_option("--seed", options.cases.seed);
-  app.add_flag("--parts", options.cases.parts, "each part of a view in a material of its own");
   return bench::run_tool("normals_errors", app, argc, argv, [&] { return judge(options); });
 }

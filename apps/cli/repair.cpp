@@ -62,8 +62,11 @@ void repair_file(const Options& options, Run& run) {
   });
   run.report["input"] = options.mesh;
   const std::string written = run.report_files({{"output", options.repaired}, {"png", options.png}});
-  run.summary = fmt::format("{}: watertight, {} faces from {} parts, at most {:.3g} R from what was given{}{}",
-                            options.mesh, result.mesh.faces.rows(), result.parts, result.reach, loss_text, written);
+  const bool strays = result.reach > options.settings.tolerance;
+  run.summary =
+      fmt::format("{}: watertight, {} faces from {} parts, at most {:.3g} R from what was given{}{}{}", options.mesh,
+                  result.mesh.faces.rows(), result.parts, result.reach,
+                  strays ? ", MORE than the tolerance: it is too small for what is missing" : "", loss_text, written);
 }
 
 Action add(CLI::App& command) {

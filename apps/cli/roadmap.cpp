@@ -101,13 +101,11 @@ void roadmap_of_file(const Options& options, Run& run) {
   const Obstacles obstacles = run.stage("read", [&] { return read_obstacles(options); });
   expect_fitting_pictures(obstacles, options);
   const World world = run.stage("parts", [&] { return made_ready(obstacles, options, run.progress); });
-  std::optional<MarginField> field;
   std::unique_ptr<Retractor> retract;
   if (options.method == Method::svma) {
-    run.stage("train", [&] {
-      field.emplace(world.scene->space(), world.contacts, MarginFieldSettings{.seed = run.seed}, run.progress);
+    retract = run.stage("train", [&] {
+      return trained_push(*world.scene, world.contacts, {.seed = run.seed}, options.push, run.progress);
     });
-    retract = std::make_unique<MarginPush>(*world.scene, *field, options.push);
   } else {
     retract = std::make_unique<Maprm>(*world.scene, MaprmSettings{.exact = options.method == Method::maprm_exact});
   }

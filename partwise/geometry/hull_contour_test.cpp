@@ -13,6 +13,7 @@
 #include "partwise/base/error.h"
 #include "partwise/geometry/marching_cubes.h"
 #include "partwise/geometry/outward_simplify.h"
+#include "partwise/geometry/solid_angle.h"
 #include "partwise/geometry/test_shapes.h"
 #include "partwise/geometry/topology.h"
 #include "partwise/geometry/triangle_crossing.h"

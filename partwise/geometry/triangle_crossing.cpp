@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "partwise/geometry/topology.h"
@@ -96,17 +95,6 @@ bool triangles_cross(const Triangle& a, const Triangle& b) {
 bool crosses_itself(const Mesh& mesh) {
   const Boxes boxes = boxes_of(mesh);
   return any_pair(boxes, boxes, [&](Eigen::Index f, Eigen::Index g) { return f < g && faces_cross(mesh, f, g); });
-}
-
-double solid_angle_winding(const Mesh& surface, const Point& p) {
-  double sum = 0;
-  for (Eigen::Index f = 0; f < surface.faces.rows(); ++f) {
-    const Triangle t = triangle_of(surface, f);
-    const Point a = t[0] - p, b = t[1] - p, c = t[2] - p;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    sum += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  }
-  return sum / (2 * std::numbers::pi);
 }
 
 bool encloses(const Mesh& outer, const Mesh& inner) {

@@ -2,13 +2,9 @@
 // precision. Faces that lie in one plane, to rounding, do not cross.
 #pragma once
 
-#include <array>
-
-#include "partwise/geometry/mesh.h"
+#include "partwise/geometry/solid_angle.h"
 
 namespace partwise {
-
-using Triangle = std::array<Point, 3>;
 
 // True when the segment meets the closed triangle and its ends lie on different sides of its plane, or one on it.
 bool segment_crosses_triangle(const Point& p, const Point& q, const Triangle& triangle);
@@ -19,10 +15,6 @@ bool triangles_cross(const Triangle& a, const Triangle& b);
 // True when two faces of the mesh cross that share no vertex, or share one and cross elsewhere. Every pair whose boxes
 // meet is tested: O(m^2) for box tests, in parallel.
 bool crosses_itself(const Mesh& mesh);
-
-// The signed number of times that the closed surface winds about p, by the solid angles of its faces (van Oosterom,
-// Strackee 1983): a whole number off the surface to rounding, between two of them on it. Open surfaces give a fraction.
-double solid_angle_winding(const Mesh& surface, const Point& p);
 
 // True when no face of `inner` crosses a face of the closed mesh `outer`, and outer winds about every component of
 // inner once or more. Every pair of faces whose boxes meet is tested, in parallel.

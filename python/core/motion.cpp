@@ -62,11 +62,9 @@ struct Found {
 };
 
 Found found_among(const World& world, const RoadmapSettingsIn& settings, const Progress& progress) {
-  std::optional<MarginField> field;
   std::unique_ptr<Retractor> retract;
   if (settings.method == Method::svma) {
-    field.emplace(world.scene->space(), world.contacts, MarginFieldSettings{.seed = settings.sampling.seed}, progress);
-    retract = std::make_unique<MarginPush>(*world.scene, *field, settings.push);
+    retract = trained_push(*world.scene, world.contacts, {.seed = settings.sampling.seed}, settings.push, progress);
   } else {
     retract = std::make_unique<Maprm>(*world.scene, MaprmSettings{.exact = settings.method == Method::maprm_exact});
   }

@@ -38,14 +38,6 @@ Found found_in(const EditingNetworks& networks, const Photo& photo, bool refine,
   return found;
 }
 
-// In the unit that networks tell radiance in.
-EnvironmentLight exposed(const EnvironmentLight& light) {
-  Image radiance = light.radiance();
-  const float exposure = grey_card_exposure(light);
-  for (float& value : radiance.values) value *= exposure;
-  return EnvironmentLight(std::move(radiance));
-}
-
 py::array normals_out(const at::Tensor& normals) {
   const at::Tensor pixels = normals[0].detach().permute({1, 2, 0}).contiguous();
   std::vector<float> values(pixels.data_ptr<float>(), pixels.data_ptr<float>() + pixels.numel());
@@ -63,7 +55,7 @@ Edit edit(const py::object& given, const py::object& masks, const std::optional<
   }
   const std::optional<Photo> source = other.is_none() ? std::nullopt : std::optional(photo_in(other, other_masks));
   std::optional<EnvironmentLight> new_light;
-  if (!light.is_none()) new_light = exposed(light_in(light));
+  if (!light.is_none()) new_light = exposed_for_grey_card(light_in(light));
   Found found;
   Image result = long_call([&](const Progress& progress) {
     const EditingNetworks networks = read_editing_networks(weights.value_or(shared_file("models/networks/editing.pt")));

@@ -66,11 +66,7 @@ std::vector<DsbrdfCoefficients> wanted_materials(const Options& options, const E
 
 std::optional<EnvironmentLight> other_light(const Options& options) {
   if (options.light.empty()) return std::nullopt;
-  const EnvironmentLight light = named_light(options.light);
-  Image radiance = light.radiance();
-  const float exposure = grey_card_exposure(light);
-  for (float& value : radiance.values) value *= exposure;
-  return EnvironmentLight(std::move(radiance));
+  return exposed_for_grey_card(named_light(options.light));
 }
 
 void edit(const Options& options, Run& run) {

@@ -52,4 +52,11 @@ float grey_card_exposure(const EnvironmentLight& light) {
   return exposure_by_median(exact_image(seen, sums), seen.mask_image());
 }
 
+EnvironmentLight exposed_for_grey_card(const EnvironmentLight& light) {
+  Image radiance = light.radiance();
+  const float exposure = grey_card_exposure(light);
+  for (float& value : radiance.values) value *= exposure;
+  return EnvironmentLight(std::move(radiance));
+}
+
 }  // namespace partwise

@@ -23,4 +23,7 @@ Image material_ball(const Brdf& material, const LightTree& light, int size);
 // materials as bright. No light: 1.
 float grey_card_exposure(const EnvironmentLight& light);
 
+// The light multiplied by it.
+EnvironmentLight exposed_for_grey_card(const EnvironmentLight& light);
+
 }  // namespace partwise

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "partwise/base/error.h"
+#include "partwise/geometry/solid_angle.h"
 #include "partwise/geometry/topology.h"
 
 namespace partwise {
@@ -23,14 +24,10 @@ struct SeenTriangle {
       corner[k] = cage.vertices.row(cage.faces(face, k)) - from;
       length[k] = corner[k].norm();
     }
-    // van Oosterom, Strackee 1983.
-    const double volume = corner[0].dot(corner[1].cross(corner[2]));
-    const double rest = length[0] * length[1] * length[2] + corner[0].dot(corner[1]) * length[2] +
-                        corner[1].dot(corner[2]) * length[0] + corner[2].dot(corner[0]) * length[1];
-    solid_angle = 2 * std::atan2(volume, rest);
+    solid_angle = partwise::solid_angle(corner);
   }
 
-  std::array<Point, 3> corner;
+  Triangle corner;
   std::array<double, 3> length;
   double solid_angle = 0;  // positive when the face is seen from within
 };

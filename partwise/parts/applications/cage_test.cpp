@@ -11,6 +11,7 @@
 
 #include "partwise/base/error.h"
 #include "partwise/base/test_folder.h"
+#include "partwise/geometry/solid_angle.h"
 #include "partwise/geometry/topology.h"
 #include "partwise/geometry/triangle_crossing.h"
 #include "partwise/parts/applications/cage_deformer.h"
