@@ -29,24 +29,25 @@ float HalfwayTable::knot(int place) {
   return near == place ? m : 1 - m;
 }
 
-HalfwayTable::HalfwayTable(const Dsbrdf& material) : table_(rows) {
+HalfwayTable::HalfwayTable(const Dsbrdf& material) : table_(std::make_unique_for_overwrite<Row[]>(rows)) {
   constexpr int together = 8;
   static const std::vector<float> knots = all_knots();
   tbb::parallel_for(0, rows, [&](int i) {
     const DsbrdfLobes lobes = material.lobes(quarter * i / (rows - 1));
     const Eigen::Matrix3f kappa = lobes.kappa.cast<float>(), gamma = lobes.gamma.cast<float>();
     Row& row = table_[static_cast<std::size_t>(i)];
-    row.fill(0);
-    for (int first = 0; first < places; first += together) {
+    for (int first = 0; first <= places; first += together) {
       float8::Float8 s{};
       for (int k = 0; k < together; ++k) s[k] = knots[static_cast<std::size_t>(std::min(first + k, places - 1))];
       const LogCosines cosines(s);
+      std::array<float8::Float8, 4> values{};  // the fourth stays zero
       for (int channel = 0; channel < 3; ++channel) {
-        const float8::Float8 value = lobe_sum(
+        values[static_cast<std::size_t>(channel)] = lobe_sum(
             cosines, [&](int lobe) { return kappa(channel, lobe); }, [&](int lobe) { return gamma(channel, lobe); });
-        for (int k = 0; k < std::min(together, places - first); ++k) {
-          row[static_cast<std::size_t>(4 * (first + k) + channel)] = value[k];
-        }
+      }
+      float* at = row.data() + 4 * first;
+      for (int k = 0; k < std::min(together, places + 1 - first); ++k) {
+        for (const float8::Float8& value : values) *at++ = value[k];
       }
     }
   });

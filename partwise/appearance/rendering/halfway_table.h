@@ -1,16 +1,17 @@
 // A material that depends on the half-vector's angles alone, tabulated so that a renderer can ask for it millions of
 // times: f(n.h, theta_d) in linear RGB. Internal to this room.
 //
-// Rows are evenly spaced in theta_d. Along a row the knots lie densely towards n.h = 1, where lobes are sharp, and
-// towards 0, where cloth shines: with s = 1 - n.h and m = min(s, n.h), they are the values of m + 2^-18 that have five
-// bits of mantissa. So the bits of a float are its place among the knots, and no logarithm is needed; between knots the
-// table is linear.
+// Rows are evenly spaced in theta_d, and linear between: in the middle of two rows the shipped materials are 0.04 % off
+// in the mean and 0.3 % at worst (medians of the hundred, up to 85 degrees). Along a row the knots lie densely towards
+// n.h = 1, where lobes are sharp, and towards 0, where cloth shines: with s = 1 - n.h and m = min(s, n.h), they are the
+// values of m + 2^-18 that have five bits of mantissa. So the bits of a float are its place among the knots, and no
+// logarithm is needed; between knots the table is linear.
 #pragma once
 
 #include <Eigen/Core>
 
 #include <array>
-#include <vector>
+#include <memory>
 
 #include "partwise/appearance/material/dsbrdf.h"
 #include "partwise/appearance/rendering/float8.h"
@@ -23,9 +24,9 @@ class HalfwayTable {
   static constexpr float offset = 1.0f / (1 << 18);
   static constexpr int half = (17 << mantissa_bits) + 1;  // places of m in [0, 1/2]; the last one is shared
   static constexpr int places = 2 * half - 1;
-  static constexpr int rows = 257;
+  static constexpr int rows = 129;
 
-  // One row, four floats a place: R, G, B and nothing.
+  // One row, four floats a place: R, G, B and zero. One place more than there are, so that the last has a next one.
   using Row = std::array<float, 4 * (places + 1)>;
 
   explicit HalfwayTable(const Dsbrdf& material);
@@ -53,7 +54,7 @@ class HalfwayTable {
  private:
   static float8::Int8 first_bits() { return float8::bits(float8::all(offset)); }
 
-  std::vector<Row> table_;
+  std::unique_ptr<Row[]> table_;
 };
 
 }  // namespace partwise

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include <cmath>
 #include <numbers>
 #include <random>
 
+#include "partwise/appearance/material/material_files.h"
 #include "partwise/appearance/rendering/halfway_table.h"
 #include "partwise/appearance/rendering/shading_frame.h"
 #include "partwise/appearance/rendering/test_scenes.h"
@@ -151,6 +153,24 @@ TEST(HalfwayTable, GivesTheMaterialsValues) {
     }
     // The first lobe of cloth, near the bound of its exponent, grows by a third from knot to knot.
     EXPECT_LT(worst, first < 0 ? 0.03 : 0.005) << gamma;
+  }
+}
+
+TEST(HalfwayTable, KeepsToTheShippedMaterialsBetweenItsRows) {
+  constexpr double row_angle = std::numbers::pi / 2 / (HalfwayTable::rows - 1), last = 85 * std::numbers::pi / 180;
+  for (const std::string& name : shipped_materials()) {
+    const Dsbrdf material = shipped_material(name).brdf;
+    const HalfwayTable table(material);
+    double sum = 0, count = 0;
+    for (double theta_d = row_angle / 2; theta_d < last; theta_d += row_angle) {
+      for (int place = 0; place < HalfwayTable::places; place += 20) {  // at knots: no error along the row
+        const float s = HalfwayTable::knot(place);
+        const double truth = material.lobes(theta_d).value(1 - static_cast<double>(s))[1];
+        const double found = static_cast<double>(table.value(static_cast<float>(std::cos(theta_d)), s)[1]);
+        sum += std::abs(found - truth) / (std::abs(truth) + 1e-3), ++count;
+      }
+    }
+    EXPECT_LT(sum / count, 1e-3) << name;
   }
 }
 
