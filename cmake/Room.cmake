@@ -38,15 +38,15 @@ endfunction()
 
 # Part of partwise_room: installs the library and its headers, and notes what PartwiseConfig.cmake must say about the room.
 function(partwise_install_room name)
-  install(TARGETS partwise_${name} EXPORT Partwise-${name})
-  install(EXPORT Partwise-${name} NAMESPACE Partwise:: DESTINATION ${PARTWISE_INSTALL_CMAKE})
+  install(TARGETS partwise_${name} EXPORT Partwise-${name} COMPONENT dev)
+  install(EXPORT Partwise-${name} NAMESPACE Partwise:: DESTINATION ${PARTWISE_INSTALL_CMAKE} COMPONENT dev)
   set(excluded PATTERN "test_*" EXCLUDE)
   foreach(header IN LISTS ROOM_INTERNAL)
     list(APPEND excluded PATTERN ${header} EXCLUDE)
   endforeach()
   foreach(dir IN LISTS ROOM_DIRS)
     install(DIRECTORY ${dir}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/partwise/${dir}
-            OPTIONAL FILES_MATCHING PATTERN "*.h" ${excluded})
+            COMPONENT dev OPTIONAL FILES_MATCHING PATTERN "*.h" ${excluded})
   endforeach()
   set(below ${ROOM_LINK} ${ROOM_PRIVATE})
   list(FILTER below INCLUDE REGEX "^Partwise::")

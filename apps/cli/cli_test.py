@@ -210,7 +210,9 @@ class Usage(CommandLine):
     def test_version(self):
         result = self.run_program("--version")
         self.assert_done(result)
-        self.assertRegex(result.stdout, r"^partwise \d+\.\d+\.\d+\n$")
+        self.assertRegex(
+            result.stdout, r"^partwise \d+\.\d+\.\d+\n\w+, \w+ \d+[^\n]*\nembree 3[^,\n]*, (no OMPL|OMPL 1.*), (no libtorch|libtorch [12].*)\n$"
+        )
 
 
 class Results(CommandLine):

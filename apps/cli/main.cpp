@@ -138,7 +138,8 @@ int parse_and_execute(int argc, char** argv) {
   };
   if (std::ranges::any_of(elsewhere, is_asked_for)) return become_learning_program(argv);
   CLI::App program("Turns shapes into parts.", "partwise");
-  program.set_version_flag("--version", "partwise " PARTWISE_VERSION);
+  program.set_version_flag("--version", "partwise " PARTWISE_VERSION "\n" PARTWISE_BUILD "\n" PARTWISE_PEERS,
+                           "Print the version, how it was built, and with what");
   program.get_formatter()->label("SUBCOMMAND", "VERB");
   program.get_formatter()->label("REQUIRED", "(required)");
   program.footer("partwise VERB --help says more and gives an example.");
@@ -168,6 +169,13 @@ int parse_and_execute(int argc, char** argv) {
 }  // namespace partwise::cli
 
 int main(int argc, char** argv) {
+#ifdef PARTWISE_PROCESSOR
+  if (!__builtin_cpu_supports(PARTWISE_PROCESSOR)) {
+    partwise::cli::say("this processor cannot run it: it was built for " PARTWISE_PROCESSOR
+                       "; build it with -DPARTWISE_ARCH=x86-64");
+    return partwise::cli::exit_cannot;
+  }
+#endif
   try {
     return partwise::cli::parse_and_execute(argc, argv);
   } catch (const std::exception& error) {

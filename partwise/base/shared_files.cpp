@@ -22,6 +22,7 @@ std::vector<fs::path> places() {
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   if (!error) result.push_back(program.parent_path().parent_path() / "share" / "partwise");
   result.emplace_back(PARTWISE_SHARE_FOLDER);
+  result.emplace_back("/usr/share/partwise");  // a package's, where /proc is not mounted
   result.emplace_back(PARTWISE_SOURCE_FOLDER);
   return result;
 }

@@ -2,7 +2,7 @@
 //
 // Looked for in this order, the first place that has the file wins:
 //   1. the folder that the environment variable PARTWISE_DATA names (it holds data/ and models/);
-//   2. the installed share folder: share/partwise beside the running program's bin/, then under the install prefix;
+//   2. the installed share folder: share/partwise beside the running program's bin/, under the prefix, under /usr;
 //   3. the source tree that the library was built from.
 #pragma once
 
