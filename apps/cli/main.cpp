@@ -169,13 +169,6 @@ int parse_and_execute(int argc, char** argv) {
 }  // namespace partwise::cli
 
 int main(int argc, char** argv) {
-#ifdef PARTWISE_PROCESSOR
-  if (!__builtin_cpu_supports(PARTWISE_PROCESSOR)) {
-    partwise::cli::say("this processor cannot run it: it was built for " PARTWISE_PROCESSOR
-                       "; build it with -DPARTWISE_ARCH=x86-64");
-    return partwise::cli::exit_cannot;
-  }
-#endif
   try {
     return partwise::cli::parse_and_execute(argc, argv);
   } catch (const std::exception& error) {
