@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 
 namespace partwise {
 namespace {
@@ -21,6 +22,20 @@ VisibleRegion::Planes face_planes(const Mesh& mesh) {
   return planes;
 }
 
+// Of each face in face_list the two corners that are not the vertex it is listed at.
+std::vector<std::array<int, 2>> other_corners(const SurfaceGraph& graph) {
+  std::vector<std::array<int, 2>> result;
+  result.reserve(graph.face_list.size());
+  for (int v = 0; v < graph.size(); ++v) {
+    for (const int f : graph.faces(v)) {
+      const auto corners = graph.mesh.faces.row(f);
+      const int k = corners[0] == v ? 0 : corners[1] == v ? 1 : 2;
+      result.push_back({corners[(k + 1) % 3], corners[(k + 2) % 3]});
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 VisibleRegion::VisibleRegion(const SurfaceGraph& graph, const InnerVisibility& visibility)
@@ -28,6 +43,7 @@ VisibleRegion::VisibleRegion(const SurfaceGraph& graph, const InnerVisibility& v
       visibility_(visibility),
       planes_(face_planes(graph.mesh)(graph.face_list, Eigen::all)),
       first_planes_(planes_(Eigen::Map<const Eigen::ArrayXi>(graph.first_face.data(), graph.size()), Eigen::all)),
+      other_corners_(other_corners(graph)),
       state_(static_cast<std::size_t>(graph.size())),
       traced_(static_cast<std::size_t>(graph.mesh.faces.rows()), 0),
       parent_(static_cast<std::size_t>(graph.size())) {}
@@ -147,22 +163,20 @@ VisibleRegion::Contour VisibleRegion::trace(int start_visible, int start_hidden)
   while (!edges.empty()) {
     const auto [a, b] = edges.back();
     edges.pop_back();
-    for (const int f : graph_.faces(a)) {
-      const auto corners = graph_.mesh.faces.row(f);
-      if (traced_[f] || (corners.array() != b).all()) continue;
+    for (int i = graph_.first_face[a]; i < graph_.first_face[a + 1]; ++i) {
+      const auto [p, q] = other_corners_[i];
+      const int f = graph_.face_list[i], c = p == b ? q : p;
+      if ((p != b && q != b) || traced_[f]) continue;
       traced_[f] = 1;
       traced_faces_.push_back(f);
-      for (const int c : corners) {
-        if (c == a || c == b) continue;
-        if (visible(c)) {
-          contour.visible.push_back(c);
-          edges.emplace_back(c, b);
-        } else {
-          contour.hidden.push_back(c);
-          edges.emplace_back(a, c);
-        }
+      if (c == a || c == b) continue;  // no area
+      if (visible(c)) {
+        contour.visible.push_back(c);
+        edges.emplace_back(c, b);
+      } else {
+        contour.hidden.push_back(c);
+        edges.emplace_back(a, c);
       }
-      edges.emplace_back(a, b);
     }
   }
   contour.visible.push_back(start_visible);

@@ -13,6 +13,7 @@
 //   filter          the region that bfs gives, on every viewpoint, by few tests.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -84,8 +85,9 @@ class VisibleRegion {
   const SurfaceGraph& graph_;
   const InnerVisibility& visibility_;
   Planes planes_, first_planes_;  // as in face_list; the first of each vertex again, so that most tests stay in cache
-  std::vector<std::uint16_t> state_;  // of vertices
-  std::vector<char> traced_;          // of faces
+  std::vector<std::array<int, 2>> other_corners_;  // as in face_list
+  std::vector<std::uint16_t> state_;               // of vertices
+  std::vector<char> traced_;                       // of faces
   std::vector<int> parent_, region_, walk_, traced_faces_;
   std::vector<std::pair<int, int>> boundary_;  // in the region, and a neighbour that is not
   std::vector<std::pair<int, int>> edge_pairs_;
