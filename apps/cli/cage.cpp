@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "mesh_errors.h"
+#include "named_places.h"
 #include "options.h"
 #include "partwise/geometry/mesh_io.h"
 #include "picture.h"

@@ -1,7 +1,7 @@
 """Replays a corpus of bad and odd files with the program: what can be used gives every output that was asked for, what
 cannot gives exit 1 and one line that holds the expected words, and nothing takes long.
 
-    corpus_test.py PROGRAM CORPUS_FOLDER Meshes|Surfaces|Outlines
+    corpus_test.py PROGRAM CORPUS_FOLDER Meshes|Surfaces|Outlines|Problems
 """
 
 import json
@@ -96,6 +96,31 @@ class Outlines(Corpus, unittest.TestCase):
         self.assertEqual(report["repaired"], case.get("repaired"))
         self.assertLessEqual(report["concavity"], 0.1)
         self.assertEqual(len(json.loads((folder / "a.geojson").read_text())["features"]), report["parts"])
+
+
+class Problems(unittest.TestCase):
+    """What can be read is planned for, or one line says why not: no start and goal, no axis, nothing found in a second."""
+
+    def test_every_file(self):
+        cases = json.loads((CORPUS / "expected.json").read_text())
+        self.assertGreaterEqual(len(cases), 100)
+        for case in cases:
+            with self.subTest(file=case["file"]), tempfile.TemporaryDirectory(prefix="partwise-corpus-") as folder:
+                self.replay(case, Path(folder))
+
+    def replay(self, case, folder):
+        file, option = CORPUS / case["file"], {".robot": "--robot", ".query": "--queries"}.get(Path(case["file"]).suffix)
+        problem = [file] if option is None else [CORPUS / "world.env", option, file]
+        result = subprocess.run([PROGRAM, "plan", *problem, "--time", "1", "--path", folder / "a.txt", "--json", folder / "a.json"],
+                                capture_output=True, timeout=60, encoding="utf-8", errors="replace")
+        left = {path.name for path in folder.iterdir()}
+        if result.returncode == 0:
+            self.assertNotIn("error", case)
+            self.assertEqual((result.stderr, left), ("", {"a.txt", "a.json"}))
+        else:
+            self.assertEqual((result.returncode, result.stdout, left), (1, "", set()), result.stderr)
+            self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+            self.assertIn(case.get("error", case["file"]), result.stderr)
 
 
 if __name__ == "__main__":

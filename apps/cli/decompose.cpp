@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "mesh_errors.h"
+#include "named_places.h"
 #include "options.h"
 #include "part_meshes.h"
 #include "partwise/base/error.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "mesh_errors.h"
+#include "named_places.h"
 #include "options.h"
 #include "partwise/geometry/mesh_io.h"
 #include "partwise/parts/applications/cage_deformer.h"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "mesh_errors.h"
+#include "named_places.h"
 #include "options.h"
 #include "partwise/geometry/mesh_io.h"
 #include "partwise/parts/surface/segmentation_measures.h"

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string>
 
-#include "mesh_errors.h"
+#include "named_places.h"
 #include "options.h"
 #include "partwise/appearance/colouring.h"
 #include "partwise/base/atomic_file.h"

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "motion_pictures/path_scene.h"
+#include "named_places.h"
 #include "options.h"
 #include "partwise/base/atomic_file.h"
 #include "partwise/motion/axis_planner.h"
@@ -150,12 +151,14 @@ void plan_file(const Options& options, Run& run) {
     return read_planning_problem(options.problem, {.robot = options.robot, .query = options.queries});
   });
   const MotionQuery& query = chosen_query(problem, options);
-  const ProblemScene made = run.stage("parts", [&] { return problem_scene(problem, options.world, run.progress); });
+  const ProblemScene made = naming_scene(options.problem, [&] {
+    return run.stage("parts", [&] { return problem_scene(problem, options.world, run.progress); });
+  });
   const Scene& scene = *made.scene;
   expect_free(scene, query.start, options, "start");
   expect_free(scene, query.goal, options, "goal");
 
-  const Found found = find(made, query, options, run);
+  const Found found = naming_scene(options.problem, [&] { return find(made, query, options, run); });
   const bool needed = options.log.empty() || !options.path.empty() || !options.glb.empty();
   if (!found.path && needed)
     throw InputError(options.problem,

@@ -154,7 +154,7 @@ class Plan(unittest.TestCase):
         self.write("nowhere.json", {key: value for key, value in POINT.items() if key != "queries"})
         self.refused(1, "nowhere.json", "start", arguments=["nowhere.json", *out])
         self.write("one.json", {**POINT, "obstacles": [rectangle(*WALLS[2])]})
-        self.refused(1, "two", arguments=["one.json", *out])
+        self.refused(1, "one.json", "two", arguments=["one.json", *out])
         self.write("empty.json", {**POINT, "obstacles": []})
         self.refused(1, "empty.json", arguments=["empty.json", *out])
         self.refused(1, "missing.cfg", arguments=["missing.cfg", *out])

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "mesh_errors.h"
+#include "named_places.h"
 #include "options.h"
 #include "partwise/geometry/mesh_io.h"
 #include "partwise/geometry/topology.h"

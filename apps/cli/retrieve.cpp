@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "mesh_errors.h"
+#include "named_places.h"
 #include "options.h"
 #include "part_meshes.h"
 #include "partwise/geometry/mesh_io.h"

@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "mesh_errors.h"
 #include "motion_pictures/roadmap_pictures.h"
+#include "named_places.h"
 #include "options.h"
 #include "partwise/base/atomic_file.h"
 #include "partwise/geometry/mesh_io.h"
@@ -100,11 +100,14 @@ void roadmap_of_file(const Options& options, Run& run) {
   announce_outputs(options, run.outputs);
   const Obstacles obstacles = run.stage("read", [&] { return read_obstacles(options); });
   expect_fitting_pictures(obstacles, options);
-  const World world = run.stage("parts", [&] { return made_ready(obstacles, options, run.progress); });
+  const World world = naming_scene(
+      options.scene, [&] { return run.stage("parts", [&] { return made_ready(obstacles, options, run.progress); }); });
   std::unique_ptr<Retractor> retract;
   if (options.method == Method::svma) {
-    retract = run.stage("train", [&] {
-      return trained_push(*world.scene, world.contacts, {.seed = run.seed}, options.push, run.progress);
+    retract = naming_scene(options.scene, [&] {
+      return run.stage("train", [&] {
+        return trained_push(*world.scene, world.contacts, {.seed = run.seed}, options.push, run.progress);
+      });
     });
   } else {
     retract = std::make_unique<Maprm>(*world.scene, MaprmSettings{.exact = options.method == Method::maprm_exact});

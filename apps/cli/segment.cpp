@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "mesh_errors.h"
+#include "named_places.h"
 #include "options.h"
 #include "part_meshes.h"
 #include "partwise/appearance/colouring.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh_errors.h"
+#include "named_places.h"
 #include "options.h"
 #include "part_meshes.h"
 #include "partwise/base/atomic_file.h"
