@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -26,6 +27,7 @@
 #include "options.h"
 #include "partwise/base/atomic_file.h"
 #include "partwise/base/error.h"
+#include "partwise/base/read_log.h"
 #include "progress_line.h"
 #include "run.h"
 #include "verbs.h"
@@ -78,6 +80,8 @@ void finish(Run& run, const CommonOptions& common, std::chrono::steady_clock::ti
   const std::chrono::duration<double> total = std::chrono::steady_clock::now() - start;
   run.seconds["total"] = total.count();
   run.report["seconds"] = run.seconds;
+  run.report["reads"] = nlohmann::ordered_json::array();
+  for (const std::filesystem::path& file : files_read()) run.report["reads"].push_back(file.string());
   const std::string json =
       run.report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";  // names may be no UTF-8
   if (!common.json.empty() && common.json != "-") write_file(run.outputs.staged("--json"), json);
@@ -100,11 +104,17 @@ int execute(const Command& command) {
     threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(common.threads));
   }
   catch_stop_signals();
+  if (!common.json.empty()) keep_read_log();
   ProgressLine line(common.quiet);
   Run run;
   try {
     run.seed = static_cast<std::uint64_t>(common.seed);
+    run.threads = common.threads > 0 ? common.threads : tbb::this_task_arena::max_concurrency();
     run.progress = line.progress();
+    run.say = [&](const std::string& message) {
+      line.wipe();
+      say(message);
+    };
     if (!common.json.empty() && common.json != "-") run.outputs.add("--json", common.json);
     command.action(run);
     line.wipe();

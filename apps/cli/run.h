@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -15,7 +16,9 @@ namespace partwise::cli {
 
 struct Run {
   std::uint64_t seed = 0;
+  int threads = 1;  // at most
   Progress progress;
+  std::function<void(const std::string&)> say;  // a line on standard error
   Outputs outputs;
   std::string if_stopped = "nothing was written";                     // what a stop leaves
   std::string summary;                                                // for people, on standard output

@@ -27,6 +27,7 @@ extern const Verb edit_verb;
 extern const Verb normals_verb;
 extern const Verb roadmap_verb;
 extern const Verb plan_verb;
+extern const Verb pipeline_verb;
 
 std::span<const Verb* const> verbs();
 

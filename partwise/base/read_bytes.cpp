@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "partwise/base/error.h"
+#include "partwise/base/read_log.h"
 
 namespace partwise {
 
@@ -20,6 +21,7 @@ std::string read_bytes(const std::filesystem::path& path) {
     throw InputError(path.string(), std::filesystem::is_directory(status) ? "is a folder" : "is not a regular file",
                      "name a file");
   }
+  note_read(path);
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
   const std::uintmax_t size = std::filesystem::file_size(path, error);

@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <new>
+#include <optional>
 #include <stdexcept>
 
 #include "partwise/base/atomic_file.h"
@@ -15,8 +16,8 @@ namespace {
 
 enum class Format { off, obj, ply, stl, byu, gltf, glb };
 
-Format format_of(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
+std::optional<Format> known_format(const std::filesystem::path& path) {
+  const std::string ending = path.extension().string();
   for (const auto& [name, format] : {std::pair{".off", Format::off},
                                      {".obj", Format::obj},
                                      {".ply", Format::ply},
@@ -26,6 +27,12 @@ Format format_of(const std::filesystem::path& path) {
                                      {".glb", Format::glb}}) {
     if (equals_ignoring_case(ending, name)) return format;
   }
+  return std::nullopt;
+}
+
+Format format_of(const std::filesystem::path& path) {
+  if (const std::optional<Format> known = known_format(path)) return *known;
+  const std::string ending = path.extension().string();
   throw InputError(path.string(),
                    ending.empty() ? "has no ending that names a mesh format"
                                   : fmt::format("{} is not the ending of a mesh format", shown(ending)),
@@ -123,6 +130,8 @@ Mesh within_memory(const std::string& file, const Read& read) {
 }
 
 }  // namespace
+
+bool is_mesh_file(const std::filesystem::path& path) { return known_format(path).has_value(); }
 
 Mesh read_mesh(const std::filesystem::path& path) {
   format_of(path);  // before anything is read

@@ -38,6 +38,9 @@ Mesh read_mesh(const std::filesystem::path& path);
 // must hold its buffers itself.
 Mesh read_mesh(const std::string& name, std::string_view bytes);
 
+// Whether the ending is that of a format that is read.
+bool is_mesh_file(const std::filesystem::path& path);
+
 // What the faces of an OBJ file wear: the names that its lines usemtl give, in the order of their first use, and of
 // each face of the mesh that read_mesh makes of it the place of its own; "" before the first such line. Errors: as
 // read_mesh, and for a file without such a line.

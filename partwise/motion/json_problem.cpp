@@ -22,11 +22,11 @@ constexpr double margin = 0.05;  // of the diagonal, around obstacles where no b
 
 class ProblemReader {
  public:
-  explicit ProblemReader(const std::filesystem::path& path) : path_(path) {}
+  // Of the object at `place` of a file, which names files relative to `folder`.
+  ProblemReader(std::filesystem::path path, std::string place, std::filesystem::path folder)
+      : path_(std::move(path)), place_(std::move(place)), folder_(std::move(folder)) {}
 
-  PlanningProblem read() {
-    const json whole = json::parse(read_bytes(path_), nullptr, false);
-    if (whole.is_discarded()) throw InputError(path_.string(), "is not JSON", "check brackets, quotes and commas");
+  PlanningProblem read(const json& whole) {
     JsonFields fields = object("", whole);
     problem_.name = fields.has("name") ? fields.text("name") : path_.stem().string();
     fields.need("space");
@@ -38,7 +38,7 @@ class ProblemReader {
       fields.refuse("robot", "is missing, but the space has rotations", "give a robot, or take plane or space");
     }
     read_shapes(fields, "obstacles", false);
-    expect_obstacles(problem_, path_.string());
+    expect_obstacles(problem_, place_.empty() ? path_.string() : at(place_));
     read_bounds(fields);
     if (const json* queries = fields.find("queries")) read_queries(fields, *queries);
     fields.find("about");  // what people and programs note there
@@ -47,8 +47,13 @@ class ProblemReader {
   }
 
  private:
-  JsonFields object(const std::string& place, const json& value) const {
+  JsonFields object(const std::string& place, const json& value) const { return fields_at(within(place), value); }
+  // `place` in the whole file.
+  JsonFields fields_at(const std::string& place, const json& value) const {
     return {path_.string(), place, value, "docs/problems.md"};
+  }
+  std::string within(const std::string& place) const {
+    return place_ + (place_.empty() || place.empty() ? "" : ".") + place;
   }
   std::string at(const std::string& place) const { return path_.string() + ": " + place; }
   bool planar() const { return is_planar(problem_.kind); }
@@ -80,7 +85,7 @@ class ProblemReader {
 
   // Where a thing is: a position, and a turn by an angle about an axis.
   Eigen::Isometry3d pose(const std::string& place, const json& value) const {
-    JsonFields fields = object(place, value);
+    JsonFields fields = fields_at(place, value);
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
     if (const json* position = fields.find("position")) {
       pose.translation() = numbers(fields, "position", *position, 3);
@@ -111,7 +116,7 @@ class ProblemReader {
     if (!is_robot && problem_.kind == SpaceKind::plane && problem_.robot.empty()) {
       shape.refuse("mesh", "cannot be an obstacle of a point in the plane", "give polygons, or a robot");
     }
-    Mesh mesh = read_named_mesh(path_.parent_path(), shape.text("mesh"), at(shape.place_of("mesh")));
+    Mesh mesh = read_named_mesh(folder_, shape.text("mesh"), at(shape.place_of("mesh")));
     mesh.vertices *= shape.number("scale", 1, 1e-9, 1e9);
     if (const json* given = shape.find("pose")) move_mesh(mesh, pose(shape.place_of("pose"), *given));
     (is_robot ? problem_.robot : problem_.obstacles).push_back(std::move(mesh));
@@ -121,11 +126,11 @@ class ProblemReader {
   std::vector<Polygons> polygons(JsonFields& shape) const {
     std::vector<Polygons> result;
     if (shape.has("city")) {
-      return read_city(path_.parent_path() / shape.text("city"), shape.whole("limit", 0, 1, 1000000000)).footprints;
+      return read_city(folder_ / shape.text("city"), shape.whole("limit", 0, 1, 1000000000)).footprints;
     }
     Polygons all;
     if (shape.has("polygons")) {
-      all = read_polygons(path_.parent_path() / shape.text("polygons")).polygons;
+      all = read_polygons(folder_ / shape.text("polygons")).polygons;
     } else {
       Polygon polygon{ring(shape, "polygon", shape.need("polygon")), {}};
       if (const json* holes = shape.find("holes")) {
@@ -157,7 +162,7 @@ class ProblemReader {
 
   void read_bounds(JsonFields& fields) {
     const json* given = fields.find("bounds");
-    const std::string place = at("bounds");
+    const std::string place = at(within("bounds"));
     if (given == nullptr) {
       const Eigen::AlignedBox3d box = obstacle_box(problem_);
       Vector3d wider = Vector3d::Constant(margin * box.diagonal().norm());
@@ -220,11 +225,22 @@ class ProblemReader {
   }
 
   std::filesystem::path path_;
+  std::string place_;
+  std::filesystem::path folder_;
   PlanningProblem problem_;
 };
 
 }  // namespace
 
-PlanningProblem read_json_problem(const std::filesystem::path& path) { return ProblemReader(path).read(); }
+PlanningProblem read_json_problem(const std::filesystem::path& path) {
+  const json whole = json::parse(read_bytes(path), nullptr, false);
+  if (whole.is_discarded()) throw InputError(path.string(), "is not JSON", "check brackets, quotes and commas");
+  return json_problem_at(whole, path, "", path.parent_path());
+}
+
+PlanningProblem json_problem_at(const json& object, const std::filesystem::path& file, const std::string& place,
+                                const std::filesystem::path& folder) {
+  return ProblemReader(file, place, folder).read(object);
+}
 
 }  // namespace partwise

@@ -25,7 +25,7 @@ namespace {
 
 struct Options {
   std::string config, output;
-  bool resume = false;
+  bool resume = false, check = false;
 };
 
 // One of the project's trainings, ready to run.
@@ -38,7 +38,7 @@ template <typename Of>
 Training prepared(const Options& options, Of training,
                   TrainingReport (*run)(const Of&, const Rank&, bool, const Progress&)) {
   if (!options.output.empty()) training.loop.output = options.output;
-  if (training.loop.output.empty()) {
+  if (training.loop.output.empty() && !options.check) {
     throw InputError(options.config, "names no output folder", "give it \"output\", or the option -o");
   }
   const std::filesystem::path output = training.loop.output;
@@ -68,6 +68,11 @@ void keep_freed_memory() {
 void train_network(const Options& options, Run& run) {
   run.outputs.add_input("CONFIG", options.config);
   const Training training = run.stage("read", [&] { return read_config(options, run); });
+  if (options.check) {
+    run.report["input"] = options.config;
+    run.summary = options.config + ": as it should be";
+    return;
+  }
   const Rank rank = rank_from_environment();
   keep_freed_memory();
   run.if_stopped = "a checkpoint was written, and --resume goes on from there";
@@ -89,6 +94,7 @@ Action add(CLI::App& command) {
       ->required()
       ->type_name("");
   command.add_flag("--resume", options->resume, "Go on from the output folder's checkpoint, if there is one");
+  command.add_flag("--check", options->check, "Read the configuration, say what is wrong with it, and train nothing");
   add_file(command, "-o", options->output, "The folder of the training, in place of the configuration's")
       ->type_name("DIR");
   return [options](Run& run) { train_network(*options, run); };

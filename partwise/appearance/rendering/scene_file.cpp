@@ -77,15 +77,18 @@ class SceneReader {
   RenderMesh read_shape_or_mesh(JsonFields& fields) {
     RenderMesh mesh;
     const std::filesystem::path path = file(fields.text("file"));
-    const bool by_component = fields.truth("components", false), by_labels = fields.has("labels");
-    const bool is_shape = fields.has("parts") || is_archive(path);
-    if (by_component + by_labels + fields.has("parts") > 1) {
+    const bool by_rule = fields.has("parts"), by_component = fields.truth("components", false);
+    const bool groups_labels = by_rule && fields.text("parts") == "labels";
+    const bool by_labels = fields.has("labels") && !groups_labels;
+    const bool is_shape = by_rule || is_archive(path);
+    if (by_component + by_labels + by_rule > 1) {
       const std::string first = by_component ? "components" : "labels";
       fields.refuse(first, by_labels && by_component ? "and labels are both there" : "and parts are both there",
                     "keep one");
     }
     if (is_shape) {
-      const ShapeFile shape{path, is_archive(path) ? fields.text("model") : ""};
+      ShapeFile shape{path, is_archive(path) ? fields.text("model") : ""};
+      if (groups_labels) shape.labels = file(fields.text("labels"));
       mesh.mesh = read_shape(shape);
       const PartSettings settings = take_part_settings(fields, PartRule::whole);
       if (!by_component && !by_labels) mesh.parts = worn_parts(shape, mesh.mesh, settings);

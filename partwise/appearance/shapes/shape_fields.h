@@ -13,7 +13,8 @@ inline PartSettings take_part_settings(JsonFields& fields, PartRule otherwise) {
                                            {"components", PartRule::components},
                                            {"corise", PartRule::corise},
                                            {"cvf", PartRule::cvf},
-                                           {"materials", PartRule::materials}});
+                                           {"materials", PartRule::materials},
+                                           {"labels", PartRule::labels}});
   settings.groups = fields.whole("groups", settings.groups, 1, 1000);
   if (fields.has("tolerance") && settings.rule != PartRule::corise) {
     fields.refuse("tolerance", "is of corise alone", "leave it out");
@@ -23,7 +24,7 @@ inline PartSettings take_part_settings(JsonFields& fields, PartRule otherwise) {
 }
 
 inline const char* word_of(PartRule rule) {
-  constexpr const char* words[] = {"whole", "components", "corise", "cvf", "materials"};
+  constexpr const char* words[] = {"whole", "components", "corise", "cvf", "materials", "labels"};
   return words[static_cast<int>(rule)];
 }
 

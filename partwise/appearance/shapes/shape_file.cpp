@@ -29,6 +29,16 @@ std::vector<int> material_of_faces(const ShapeFile& shape) {
   return read_obj_materials(name_of(shape), read_bytes(shape.file)).of_face;
 }
 
+std::vector<int> labels_of_faces(const ShapeFile& shape, const Mesh& mesh) {
+  std::vector<int> labels = read_labels(shape.labels);
+  if (static_cast<Eigen::Index>(labels.size()) != mesh.faces.rows()) {
+    throw InputError(shape.labels.string(),
+                     fmt::format("has {} labels, {} has {} faces", labels.size(), name_of(shape), mesh.faces.rows()),
+                     "give the labels of this mesh");
+  }
+  return labels;
+}
+
 std::vector<int> parts_by_rule(const ShapeFile& shape, const Mesh& mesh, const PartSettings& settings) {
   switch (settings.rule) {
     case PartRule::whole:
@@ -41,6 +51,8 @@ std::vector<int> parts_by_rule(const ShapeFile& shape, const Mesh& mesh, const P
       return segment(mesh).labels;
     case PartRule::materials:
       return material_of_faces(shape);
+    case PartRule::labels:
+      return labels_of_faces(shape, mesh);
   }
   throw CheckFailed("no such rule");
 }

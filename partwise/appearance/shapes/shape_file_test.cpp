@@ -52,6 +52,22 @@ TEST_F(ShapeFiles, SolidRulesLabelEveryFace) {
   EXPECT_EQ(worn_parts(shape, mesh, {.rule = PartRule::cvf}).size(), labels.size());
 }
 
+TEST_F(ShapeFiles, LabelsSayWhichFacesAreOnePart) {
+  ShapeFile shape{folder_.path() / "a.obj"};
+  shape.labels = folder_.path() / "a.seg";
+  write_file(shape.file, three_squares);
+  write_file(shape.labels, "5\n5\n2\n2\n5\n5\n");
+  const Mesh mesh = read_shape(shape);
+  EXPECT_THAT(worn_parts(shape, mesh, {.rule = PartRule::labels}), testing::ElementsAre(0, 0, 1, 1, 0, 0));
+  write_file(shape.labels, "5\n5\n");
+  try {
+    worn_parts(shape, mesh, {.rule = PartRule::labels});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("a.seg: has 2 labels, " + shape.file.string() + " has 6 faces"));
+  }
+}
+
 TEST_F(ShapeFiles, SayWhatIsWrong) {
   const auto message = [&](const char* bytes, const PartSettings& settings, const char* name) {
     try {

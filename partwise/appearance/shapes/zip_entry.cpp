@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "partwise/base/error.h"
+#include "partwise/base/read_log.h"
 
 namespace partwise {
 namespace {
@@ -40,6 +41,7 @@ std::string read_zip_entry(const std::filesystem::path& path, const std::string&
   if (!std::filesystem::is_regular_file(path)) {
     throw InputError(path.string(), "is not there, or is no file", "name a zip archive");
   }
+  note_read(path);
   const Reader reader(archive_read_new(), &archive_read_free);
   archive_read_support_format_zip_seekable(reader.get());
   if (archive_read_open_filename(reader.get(), path.c_str(), kBlock) != ARCHIVE_OK) {

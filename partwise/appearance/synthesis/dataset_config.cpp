@@ -10,6 +10,7 @@
 #include "partwise/appearance/material/material_files.h"
 #include "partwise/appearance/shapes/model_archive.h"
 #include "partwise/appearance/shapes/shape_fields.h"
+#include "partwise/appearance/synthesis/dataset_fields.h"
 #include "partwise/appearance/synthesis/file_patterns.h"
 #include "partwise/base/error.h"
 #include "partwise/base/json_fields.h"
@@ -22,14 +23,17 @@ using nlohmann::json;
 
 class ConfigReader {
  public:
-  explicit ConfigReader(const std::filesystem::path& path) : path_(path) { config_.folder = path.parent_path(); }
+  // Of the object at `place` of a file, which names files relative to `folder`.
+  ConfigReader(std::filesystem::path path, std::string place, std::filesystem::path folder)
+      : path_(std::move(path)), place_(std::move(place)) {
+    config_.folder = std::move(folder);
+  }
 
-  DatasetConfig read() {
-    const json whole = json::parse(read_bytes(path_), nullptr, false);
-    if (whole.is_discarded()) throw InputError(path_.string(), "is not JSON", "check brackets, quotes and commas");
+  DatasetConfig read(const json& whole) {
     JsonFields fields = object("", whole);
     read_shapes(fields);
     config_.parts = take_part_settings(fields, config_.parts.rule);
+    expect_labels(fields);
     config_.crease_degrees = fields.number("crease", config_.crease_degrees, 0, 180);
     config_.materials = materials(fields);
     config_.lights = lights(fields);
@@ -41,7 +45,8 @@ class ConfigReader {
 
  private:
   JsonFields object(const std::string& place, const json& value) const {
-    return {path_.string(), place, value, "docs/dataset.md"};
+    const char* dot = place_.empty() || place.empty() ? "" : ".";
+    return {path_.string(), place_ + dot + place, value, "docs/dataset.md"};
   }
 
   std::vector<std::string> files(const JsonFields& fields, const std::string& place, const std::string& pattern) const {
@@ -62,9 +67,36 @@ class ConfigReader {
       const std::string place = fmt::format("shapes[{}]", i);
       if (shapes[i].is_string()) {
         for (const std::string& file : files(fields, place, shapes[i].get<std::string>())) add_shapes(file);
+      } else if (shapes[i].is_object() && shapes[i].contains("mesh")) {
+        add_labelled(place, shapes[i]);
       } else {
         add_models(place, shapes[i]);
       }
+    }
+  }
+
+  // A mesh with its parts.
+  void add_labelled(const std::string& place, const json& value) {
+    JsonFields fields = object(place, value);
+    for (const char* name : {"mesh", "labels"}) {
+      const std::string file = fields.text(name);
+      std::error_code error;
+      if (!std::filesystem::exists(config_.folder / file, error)) {
+        fields.refuse(name, fmt::format("\"{}\" does not exist", file), "name one file, which is no pattern here");
+      }
+    }
+    config_.shapes.push_back({fields.text("mesh"), "", fields.text("labels")});
+    fields.refuse_others();
+  }
+
+  void expect_labels(const JsonFields& fields) const {
+    const bool wanted = config_.parts.rule == PartRule::labels;
+    for (const ShapeFile& shape : config_.shapes) {
+      if (wanted == !shape.labels.empty()) continue;
+      fields.refuse("parts",
+                    wanted ? fmt::format("are labels, and {} has none", shape.file.string())
+                           : fmt::format("are not labels, and {} has some", shape.file.string()),
+                    wanted ? "write {\"mesh\": ..., \"labels\": ...} for each shape" : "write \"parts\": \"labels\"");
     }
   }
 
@@ -167,11 +199,21 @@ class ConfigReader {
   }
 
   std::filesystem::path path_;
+  std::string place_;
   DatasetConfig config_;
 };
 
 }  // namespace
 
-DatasetConfig read_dataset_config(const std::filesystem::path& path) { return ConfigReader(path).read(); }
+DatasetConfig read_dataset_config(const std::filesystem::path& path) {
+  const json whole = json::parse(read_bytes(path), nullptr, false);
+  if (whole.is_discarded()) throw InputError(path.string(), "is not JSON", "check brackets, quotes and commas");
+  return dataset_config_at(whole, path, "", path.parent_path());
+}
+
+DatasetConfig dataset_config_at(const json& object, const std::filesystem::path& file, const std::string& place,
+                                const std::filesystem::path& folder) {
+  return ConfigReader(file, place, folder).read(object);
+}
 
 }  // namespace partwise

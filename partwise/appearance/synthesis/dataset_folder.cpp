@@ -36,6 +36,10 @@ Json origin(const DatasetConfig& config) {
     shapes.push_back(
         {{"file", shape.file.string()}, {"bytes", std::filesystem::file_size(config.folder / shape.file)}});
     if (!shape.model.empty()) shapes.back()["model"] = shape.model;
+    if (!shape.labels.empty()) {
+      shapes.back()["labels"] = shape.labels.string();
+      shapes.back()["label_bytes"] = std::filesystem::file_size(config.folder / shape.labels);
+    }
   }
   return {
       {"images", config.images},

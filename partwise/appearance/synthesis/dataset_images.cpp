@@ -66,6 +66,7 @@ struct DatasetImages::State {
   RenderScene shape(int i) const {
     ShapeFile file = config.shapes[static_cast<std::size_t>(i)];
     file.file = config.folder / file.file;
+    if (!file.labels.empty()) file.labels = config.folder / file.labels;
     RenderMesh mesh{read_shape(file), {}, config.crease_degrees};
     mesh.parts = parts(i, file, mesh.mesh);
     return RenderScene({&mesh, 1});

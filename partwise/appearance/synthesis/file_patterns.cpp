@@ -5,20 +5,17 @@
 #include <algorithm>
 
 namespace partwise {
-namespace {
 
-std::string escaped(const std::string& plain) {
+bool is_pattern(const std::string& name) { return name.find_first_of("*?[") != std::string::npos; }
+
+std::string plain_pattern(const std::string& name) {
   std::string result;
-  for (const char c : plain) {
+  for (const char c : name) {
     if (c == '*' || c == '?' || c == '[' || c == '\\') result += '\\';
     result += c;
   }
   return result;
 }
-
-}  // namespace
-
-bool is_pattern(const std::string& name) { return name.find_first_of("*?[") != std::string::npos; }
 
 std::vector<std::string> files_matching(const std::filesystem::path& folder, const std::string& name) {
   std::error_code error;
@@ -29,7 +26,7 @@ std::vector<std::string> files_matching(const std::filesystem::path& folder, con
   const std::string before = is_relative ? folder.string() + "/" : "";
   glob_t found{};
   std::vector<std::string> result;
-  if (::glob((escaped(before) + name).c_str(), GLOB_NOSORT, nullptr, &found) == 0) {
+  if (::glob((plain_pattern(before) + name).c_str(), GLOB_NOSORT, nullptr, &found) == 0) {
     for (std::size_t i = 0; i < found.gl_pathc; ++i) {
       const std::string path = found.gl_pathv[i];
       if (!std::filesystem::is_directory(path, error)) result.push_back(path.substr(before.size()));

@@ -24,6 +24,7 @@ std::string sample_scene(const DatasetConfig& config, std::uint64_t number, cons
   Json mesh = {{"file", shape.file.string()}};
   if (!shape.model.empty()) mesh["model"] = shape.model;
   mesh["parts"] = word_of(config.parts.rule);
+  if (!shape.labels.empty()) mesh["labels"] = shape.labels.string();
   mesh["groups"] = config.parts.groups;
   if (config.parts.rule == PartRule::corise) mesh["tolerance"] = config.parts.tolerance;
   mesh["crease"] = config.crease_degrees;

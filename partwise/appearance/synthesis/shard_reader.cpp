@@ -7,6 +7,7 @@
 
 #include "partwise/appearance/synthesis/file_patterns.h"
 #include "partwise/base/error.h"
+#include "partwise/base/read_log.h"
 
 namespace partwise {
 
@@ -16,6 +17,7 @@ struct ShardReader::Archive {
   std::optional<std::pair<std::string, std::string>> ahead;  // name and bytes of the next file
 
   explicit Archive(std::filesystem::path file) : path(std::move(file)) {
+    note_read(path);
     archive_read_support_format_tar(reader);
     constexpr std::size_t block = 1 << 16;
     if (!std::filesystem::is_regular_file(path) ||
