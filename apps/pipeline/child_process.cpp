@@ -3,8 +3,8 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/mman.h>
-#include <sys/pidfd.h>
 #include <sys/prctl.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,6 +18,9 @@ namespace partwise::pipeline {
 namespace {
 
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
+
+// The C library's own wrapper cannot be linked from C++ before glibc 2.37.
+int handle_of(pid_t process) { return static_cast<int>(::syscall(SYS_pidfd_open, process, 0)); }
 
 // In the child, between fork and exec: only what signal handlers may do.
 [[noreturn]] void become(const char* program, char* const* arguments, int messages, int parent) {
@@ -48,7 +51,7 @@ ChildProcess::ChildProcess(const std::filesystem::path& program, const std::vect
   const int parent = ::getpid();
   process_ = ::fork();
   if (process_ == 0) become(program.c_str(), pointers.data(), messages_, parent);
-  if (process_ > 0) handle_ = ::pidfd_open(process_, 0);
+  if (process_ > 0) handle_ = handle_of(process_);
   if (process_ > 0 && handle_ >= 0) return;
   const int why = errno;
   ::close(messages_);

@@ -20,40 +20,26 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 // Stands in for partwise: notes what it is asked for, and does little else.
-constexpr char stand_in[] = R"(#!/bin/sh
+constexpr char stand_in[] = R"sh(#!/bin/sh
 verb=$1 from=$2 to=$3 before= json=
 for word; do
   [ "$before" = --json ] && json=$word
   before=$word
 done
-echo "$verb $(basename "$from")" >> "{folder}/asked"
+echo "$verb ${from##*/}" >> "{folder}/asked"
 case $verb in
-  copy) cat "$from" > "$to" ;
-;
-  mention) cat "$from" "{folder}/mentioned" > "$to" ;
-  ;
-  both) cat "$from" "$4" > "$to" ;
-  ;
-  refuse) echo "noise" >&2;
-  echo "partwise: $from: is no good; change it" > &2;
-  exit 1;
-  ;
-  crash) kill -9 $$ ;
-  ;
-  forget) ;
-  ;
-  go_on) [ -e "$to/half" ] || {
-    echo half > "$to/half";
-    exec sleep 60;
-  };
-  cat "$to/half"
-      "$from" > "$to/whole";
-  ;
+  copy) cat "$from" > "$to" ;;
+  mention) cat "$from" "{folder}/mentioned" > "$to" ;;
+  both) cat "$from" "$4" > "$to" ;;
+  refuse) echo "noise" >&2; echo "partwise: $from: is no good; change it" >&2; exit 1 ;;
+  crash) kill -9 $$ ;;
+  forget) ;;
+  go_on) [ -e "$to/half" ] || { echo half > "$to/half"; exec sleep 60; }; cat "$to/half" "$from" > "$to/whole" ;;
 esac
 reads=
 [ $verb = mention ] && reads="\"{folder}/mentioned\""
 echo "{\"reads\": [$reads], \"parts\": 3}" > "$json"
-)";
+)sh";
 
 class Jobs : public testing::Test {
  protected:
