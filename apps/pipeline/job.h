@@ -36,7 +36,7 @@ struct Job {
   std::vector<std::filesystem::path> inputs{};
   std::vector<GivenFile> given{};
   std::vector<std::string> outputs{};      // what has to be there afterwards; whatever else is there is kept as well
-  std::vector<std::string> accessories{};  // how names begin of what is never twice the same, such as logs with times
+  std::vector<std::string> accessories{};  // how names begin of what is never twice the same: logs with times
   bool goes_on = false;                    // the verb goes on in a folder where it was stopped
   bool wide = false;                       // runs alone, on all threads
   int threads = 0;                         // so many, always: its bytes depend on them; 0: as many as are free

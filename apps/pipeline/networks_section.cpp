@@ -43,7 +43,8 @@ class TrainingPlanner {
     job_.words = {plain("train"), output(config_file), plain("-o"), output("."), plain("--resume")};
     job_.given = {{config_file, own_.dump(1) + "\n"}};
     job_.outputs = {"best.pt"};
-    job_.accessories = {"log.jsonl", "events.out.tfevents."};
+    // Logs hold times, and libtorch writes the optimiser in the order of addresses.
+    job_.accessories = {"log.jsonl", "events.out.tfevents.", "checkpoint.pt"};
     job_.goes_on = job_.wide = true;
     return job_;
   }
