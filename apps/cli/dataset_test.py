@@ -77,6 +77,29 @@ class Dataset(cli_test.CommandLine):
             for ours, theirs in (("a", "image"), ("n", "normal"), ("m", "mask"), ("p", "part")):
                 self.assertEqual((self.folder / f"{ours}.png").read_bytes(), files[f"{theirs}.png"], f"{theirs} of {key}")
 
+    def test_parts_come_from_files_too(self):
+        """A tetrahedron whose sides are two and two, and its image rendered again from its scene."""
+        (self.folder / "four.off").write_text("OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n")
+        (self.folder / "four.seg").write_text("7\n7\n0\n0\n")
+        labelled = {"shapes": [{"mesh": "four.off", "labels": "four.seg"}], "parts": "labels"}
+        self.config(**labelled, format="png")
+        result = self.make("out", "--json", "-")
+        self.assert_done(result)
+        self.assertEqual({name for name in json.loads(result.stdout)["reads"] if "four" in name}, {"four.off", "four.seg"})
+        _, files = next(load_shards.images(self.folder / "out"))
+        self.assertEqual(len(json.loads(files["json"])["meshes"][0]["material"]), 2)
+        (self.folder / "out" / "scene.json").write_bytes(files["json"])
+        self.assertEqual(self.run_program("render", "out/scene.json", "--folder", ".", "--png", "a.png", "--quiet").returncode, 0)
+        self.assertEqual((self.folder / "a.png").read_bytes(), files["image.png"])
+        (self.folder / "four.seg").write_text("7\n7\n0\n")
+        self.assert_refused(self.make("short"), 1, "four.seg: has 3 labels", "4 faces")
+        for changes, words in (({"shapes": ["four.off"], "parts": "labels"}, ["parts are labels", "four.off"]),
+                               ({**labelled, "parts": "whole"}, ["parts are not labels", "four.off"]),
+                               ({"shapes": [{"mesh": "four.off"}]}, ["shapes[0].labels is missing"]),
+                               ({"shapes": [{"mesh": "four.off", "labels": "gone.seg"}]}, ["shapes[0].labels", "gone.seg"])):
+            self.config(**changes)
+            self.assert_refused(self.make("bad", "--quiet"), 1, "config.json", *words)
+
     def test_ranks_are_those_of_the_environment(self):
         self.config()
         self.assert_done(self.make("one", "--quiet"))

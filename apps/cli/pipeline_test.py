@@ -149,6 +149,16 @@ class Stages(Pipeline):
             self.assertIn("training/editing/best.pt", [each["file"] for each in jobs["photos/ball.png/normals"]["inputs"]])
 
 
+class Example(unittest.TestCase):
+    def test_is_what_its_page_says_and_can_be_run(self):
+        example = cli_test.NOTCH.parent / "pipeline.json"
+        self.assertIn("```json\n" + example.read_text() + "```", (example.parents[1] / "docs" / "pipeline.md").read_text())
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run([PROGRAM, "pipeline", example, "-o", folder, "--dry-run", "--json", "-"], capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertEqual({job["stage"] for job in json.loads(done.stdout)["jobs"]}, {"parts", "roadmaps", "paths", "images", "edits", "normals"})
+
+
 class Changes(Pipeline):
     def setUp(self):
         super().setUp()

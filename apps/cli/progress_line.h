@@ -1,4 +1,5 @@
-// How long work shows itself and is stopped: one line on a terminal, nothing in a pipe; Ctrl-C asks for a clean stop.
+// How long work shows itself and is stopped: one line on a terminal, nothing in a pipe; Ctrl-C asks for a clean stop. A
+// pipeline that runs this program (apps/pipeline/child_process.h) is told instead, whatever else was asked for.
 #pragma once
 
 #include "partwise/base/progress.h"

@@ -1,5 +1,6 @@
 // A program that runs beside this one. It ends with this one, however that ends; what it says on standard error is
-// kept.
+// kept. PARTWISE_PROGRESS in its environment is the number of an open file into whose first line it may write how far
+// it is.
 //
 // Errors: std::system_error where the system gives no process.
 #pragma once
@@ -27,13 +28,13 @@ class ChildProcess {
   // Waits for the end. The exit status; 128 and the signal's number where one ended it.
   int wait();
 
+  std::string progress() const;  // "render 40 %"; empty where nothing was told
+
   // Of standard error so far the last line, without the name of the program.
   std::string last_line() const;
 
  private:
-  std::string messages() const;
-
-  int process_ = -1, handle_ = -1, messages_ = -1;
+  int process_ = -1, handle_ = -1, messages_ = -1, progress_ = -1;
 };
 
 }  // namespace partwise::pipeline

@@ -94,15 +94,16 @@ fs::path JobFolder::file_named(const std::string& name) const {
   return name.starts_with(shipped_mark) ? shipped_ / name.substr(shipped_mark.size()) : place_.output / name;
 }
 
-std::string JobFolder::name_of(const fs::path& file) const {
-  if (lies_in(file, shipped_) && !lies_in(file, place_.output)) {
-    const fs::path within = file.lexically_relative(shipped_);
-    if (*within.begin() == "models" || *within.begin() == "data") return std::string(shipped_mark) + within.string();
-  }
-  return file.lexically_relative(place_.output).string();
-}
+std::string JobFolder::name_of(const fs::path& file) const { return file.lexically_relative(place_.output).string(); }
 
-FileState JobFolder::state(const fs::path& file) { return {name_of(file), hashes_.of(file)}; }
+// What nobody named is the verb's own affair: materials, lights and networks that ship.
+std::string JobFolder::name_of_read(const fs::path& file) const {
+  std::string name = name_of(file);
+  if (inputs_.contains(name) || !lies_in(file, shipped_) || lies_in(file, place_.output)) return name;
+  const fs::path within = file.lexically_relative(shipped_);
+  if (*within.begin() == "models" || *within.begin() == "data") return std::string(shipped_mark) + within.string();
+  return name;
+}
 
 // A file, or all that another job left.
 void JobFolder::add_input(const fs::path& input) {
@@ -142,7 +143,6 @@ std::string JobFolder::why_not(const JobRecord& before) {
 }
 
 std::vector<std::string> JobFolder::command(const fs::path& folder, const fs::path& from) const {
-  const bool recorded = from == place_.output;
   const auto shown = [&](const fs::path& file) {
     const std::string relative = file.lexically_relative(from).string();
     return relative.empty() ? file.string() : relative;
@@ -150,7 +150,7 @@ std::vector<std::string> JobFolder::command(const fs::path& folder, const fs::pa
   std::vector<std::string> words;
   for (const Word& word : job_.words) {
     if (word.kind == Word::Kind::plain) words.push_back(word.text);
-    if (word.kind == Word::Kind::input) words.push_back(recorded ? name_of(word.text) : shown(word.text));
+    if (word.kind == Word::Kind::input) words.push_back(shown(word.text));
     if (word.kind == Word::Kind::output) words.push_back(shown(word.text == "." ? folder : folder / word.text));
   }
   return words;
@@ -192,7 +192,7 @@ void JobFolder::finish(const fs::path& from, double seconds) {
   for (const fs::path& file : read) {
     if (lies_in(file, unfinished_)) continue;
     expect_unchanged(file);
-    inputs_.insert_or_assign(name_of(file), hashes_.of(file));
+    inputs_.insert_or_assign(name_of_read(file), hashes_.of(file));
   }
   record_.inputs.clear();
   for (const auto& [name, hash] : inputs_) record_.inputs.push_back({name, hash});

@@ -51,7 +51,7 @@ class JobFolder {
  private:
   std::filesystem::path file_named(const std::string& name) const;
   std::string name_of(const std::filesystem::path& file) const;
-  FileState state(const std::filesystem::path& file);
+  std::string name_of_read(const std::filesystem::path& file) const;
   void add_input(const std::filesystem::path& input);
   std::string why_not(const JobRecord& before);
   std::vector<std::string> command(const std::filesystem::path& folder, const std::filesystem::path& from) const;

@@ -77,9 +77,12 @@ class Runner {
 
   void show() const {
     std::string now;
-    for (const Running& each : running_) now += (now.empty() ? "" : ", ") + jobs_[each.job].name;
-    constexpr std::size_t most = 60;
-    if (now.size() > most) now = fmt::format("{}..., {} jobs", now.substr(0, most), running_.size());
+    if (!running_.empty()) {
+      const Running& oldest = running_.front();
+      const std::string part = oldest.child.progress();
+      now = jobs_[oldest.job].name + (part.empty() ? "" : ", " + part);
+      if (running_.size() > 1) now += fmt::format(", and {} beside it", running_.size() - 1);
+    }
     progress_(fmt::format("{} of {} jobs{}{}", finished_, jobs_.size(), now.empty() ? "" : ": ", now),
               static_cast<double>(finished_) / static_cast<double>(std::max<std::size_t>(1, jobs_.size())));
   }
