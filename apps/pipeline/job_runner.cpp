@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <exception>
 #include <memory>
 #include <set>
@@ -23,8 +24,10 @@ using State = JobResult::State;
 std::string what_went_wrong(const ChildProcess& child, int status) {
   constexpr int by_signal = 128;
   if (status > by_signal) {
-    return fmt::format("was ended by signal {}; give it more memory, or run fewer jobs at a time with --threads",
-                       status - by_signal);
+    const int signal = status - by_signal;
+    return fmt::format("was ended by signal {}; {}", signal,
+                       signal == SIGKILL ? "if memory is short, run fewer jobs at a time with --threads"
+                                         : "run the pipeline again");
   }
   const std::string line = child.last_line();
   return line.empty() ? fmt::format("ended with {} and said nothing; run it by itself", status) : line;
