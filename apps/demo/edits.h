@@ -1,4 +1,4 @@
-// What the page of edits shows: pictures of models, the same in other materials as partwise edit makes them, what the
+// What the page shows of edits: pictures of models, the same in other materials as partwise edit makes them, what the
 // networks read off a picture beside the truth, materials swapped between pictures, and parts edited one by one.
 #pragma once
 
@@ -22,6 +22,6 @@ struct EditsStory {
 // The networks that ship read pictures of `car`, of `chair`, whose parts are edited, and of the swapped.
 EditsStory tell_edits(const WornModel& car, const WornModel& chair, std::span<const WornModel> swapped);
 
-std::string make_edits_page(const EditsStory& story);
+std::string edits_chapter(const EditsStory& story);
 
 }  // namespace demo
