@@ -44,10 +44,12 @@ const std::array<Move, 4>& moves() {
   static const std::array<Move, 4> all{{
       {"A neck like a giraffe's",
        [](const Point& share, const Point& size) -> Point {
-         return Point(0, 0.45, 0.1) * size.y() * rise(share.y(), 0.62, 0.85) * rise(share.z(), 0.5, 0.7);
+         return Point(0, 0.32, 0.08) * size.y() * rise(share.y(), 0.62, 0.85) * rise(share.z(), 0.5, 0.7);
        }},
       {"Longer in the body",
-       [](const Point& share, const Point& size) -> Point { return Point(0, 0, 0.5) * size.z() * (rise(share.z(), 0.3, 0.6) - 0.5); }},
+       [](const Point& share, const Point& size) -> Point {
+         return Point(0, 0, 0.5) * size.z() * (rise(share.z(), 0.3, 0.6) - 0.5);
+       }},
       {"Looking back",
        [](const Point& share, const Point& size) -> Point {
          const double turn = 1.4 * rise(share.z(), 0.62, 0.9) * rise(share.y(), 0.45, 0.7);
@@ -56,7 +58,9 @@ const std::array<Move, 4>& moves() {
                       -std::sin(turn) * arm.x() + std::cos(turn) * arm.z() - arm.z());
        }},
       {"On short legs",
-       [](const Point& share, const Point& size) -> Point { return Point(0, -0.26, 0) * size.y() * rise(share.y(), 0.05, 0.5); }},
+       [](const Point& share, const Point& size) -> Point {
+         return Point(0, -0.26, 0) * size.y() * rise(share.y(), 0.05, 0.5);
+       }},
   }};
   return all;
 }
@@ -110,10 +114,11 @@ CagesStory tell_cages(const Mesh& horse, double azimuth) {
                                                      {"horse to", after, horse_colour},
                                                      {"cage from", cage.mesh, cage_colour},
                                                      {"cage to", cage_after, cage_colour}}};
-    story.horse = make_turnable(
-        in_cage(horse, cage.mesh), meshes, {.slider = Slider::between, .label = "neck", .azimuth = azimuth},
-        fmt::format("A horse of {} faces in a cage of {}", thousands(static_cast<std::uint64_t>(story.faces)), story.cage_faces),
-        "A horse inside the edges of its cage");
+    story.horse = make_turnable(in_cage(horse, cage.mesh), meshes,
+                                {.slider = Slider::between, .label = "longer neck", .azimuth = azimuth, .height = 600},
+                                fmt::format("A horse of {} faces in a cage of {}",
+                                            thousands(static_cast<std::uint64_t>(story.faces)), story.cage_faces),
+                                "A horse inside the edges of its cage");
   }
   return story;
 }

@@ -13,6 +13,7 @@
 #include "partwise/base/shared_files.h"
 #include "partwise/editing/edit_photo.h"
 #include "partwise/editing/layer_pictures.h"
+#include "partwise/imaging/image_metrics.h"
 #include "partwise/imaging/tile.h"
 #include "partwise/imaging/tone_mapping.h"
 #include "taken.h"
@@ -29,6 +30,11 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 Picture as_picture(const Image& codes, std::string caption, std::string description) {
   return make_picture(from_codes(codes), std::move(caption), std::move(description));
+}
+
+Image of_display(Image shown) {  // 0 to 255
+  for (float& value : shown.values) value *= 255;
+  return shown;
 }
 
 void tell_layers(const Taken& picture, const PhotoLayers& layers, const MaterialRange& range, EditsStory& story) {
@@ -58,11 +64,14 @@ void tell_car(const WornModel& car, const EditingNetworks& networks, EditsStory&
   story.refined_error = layers.error;
   tell_layers(picture, layers, networks.range(), story);
   std::vector<Image> strip = {picture.photo.shown};
-  for (const char* name :
-       {"gold-metallic-paint", "chrome", "brass", "blue-metallic-paint", "white-marble", "black-obsidian",
-        "green-fabric", "violet-rubber", "specular-orange-phenolic", "cherry-235"}) {
+  for (const std::string name :
+       {"gold-metallic-paint", "chrome", "brass", "blue-metallic-paint", "white-marble", "specular-orange-phenolic"}) {
     strip.push_back(edited(picture.photo, layers, {shipped_material(name).brdf.coefficients()}));
     story.edits.push_back(as_picture(strip.back(), name, fmt::format("The same car in {}", name)));
+    const Image truth = taken(whole(car), {name}, "venice", 40).photo.shown;
+    story.truths.push_back(as_picture(truth, "the truth", fmt::format("A car that truly is of {}", name)));
+    story.differences.push_back(
+        compare_images(of_display(exposed_anew(strip.back(), picture.photo.regions[0])), of_display(truth)));
   }
   strip.resize(6);
   story.strip = from_codes(tile(strip, 3));
@@ -112,6 +121,25 @@ void tell_parts(WornModel chair, const EditingNetworks& networks, EditsStory& st
   }
 }
 
+// Means over the edits of the car.
+std::string beside(const EditsStory& story) {
+  double error = 0, likeness = 0;
+  const auto count = static_cast<double>(story.differences.size());
+  for (const ImageDifference& each : story.differences) {
+    error += each.squared_error / count;
+    likeness += each.ssim.value_or(0) / count;
+  }
+  return "<h3>Beside the dissertation&rsquo;s Table 3.2</h3>\n" +
+         table({"another material", "squared error", "SSIM"},
+               {{"Lombardi and Nishino", "802.7", "0.9416"},
+                {"the dissertation&rsquo;s network", "805.2", "0.9408"},
+                {"the same, refined", "530.9", "0.9557"},
+                {"ours, refined: the cars above", fmt::format("{:.1f}", error), fmt::format("{:.4f}", likeness)}}) +
+         "<p class=\"note\">Of values from 0 to 255, over the whole picture. The dissertation&rsquo;s are means over "
+         "500 pictures; ours is measured "
+         "now, on the pictures above alone, each exposed by its own median.</p>\n";
+}
+
 }  // namespace
 
 EditsStory tell_edits(const WornModel& car, const WornModel& chair, std::span<const WornModel> swapped) {
@@ -130,13 +158,18 @@ std::string edits_chapter(const EditsStory& story) {
 <p class="lead">Networks that learnt from such images read normals, material and light off a single picture; the object is then rendered again in
 another material. The pictures here are renderings too, under lights that the networks never saw: so the truth is known and stands beside what was
 found.</p>
-<h3>A car in ten materials</h3>
+<h3>A car in other materials</h3>
 )" + figures(story.edits, "row five") +
+         figures(story.truths, "row five gap") + beside(story) +
          R"(<h3>What was found</h3>
-)" + fmt::format("<p>What the networks see is 128 x 128 pixels. Looking takes {:.1f} s; then L-BFGS makes what was found explain "
-                 "the picture better, in {:.1f} s: the mean squared error over the object, of values from 0 to 255, falls from "
-                 "{:.0f} to {:.0f}.</p>\n",
-                 story.look_seconds, story.refine_seconds, story.error, story.refined_error) +
+)" +
+         fmt::format(
+             "<p>What the networks see is 128 x 128 pixels. Looking takes {:.1f} s; then L-BFGS makes what was found "
+             "explain "
+             "the picture better, in {:.1f} s: the mean squared error over the object, of values from 0 to 255, falls "
+             "from "
+             "{:.0f} to {:.0f}.</p>\n",
+             story.look_seconds, story.refine_seconds, story.error, story.refined_error) +
          figures(story.layers, "row five") +
          R"(<h3>Materials swapped</h3>
 <p>Each row has the shape and the light of one picture, each column the material that was found in one; the pictures themselves are on the diagonal.</p>

@@ -18,7 +18,7 @@ HeapStory tell_heap(const PileSettings& settings, const Pile& pile) {
       fmt::format("{} decomposed models at rest, simulated as {} convex hulls", settings.bodies, pile.hulls),
       "A heap of horses, chairs, cups and other models");
   story.heap_hulls = make_picture(drawn.heap_hulls, "The same heap as the physics engine sees it",
-                                        "The same heap drawn as coloured convex hulls");
+                                  "The same heap drawn as coloured convex hulls");
   return story;
 }
 

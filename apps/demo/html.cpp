@@ -44,9 +44,8 @@ std::string page_head(std::string_view title) {
 }
 
 std::string image(const Picture& picture) {
-  return fmt::format(
-      "<img src=\"{}\" alt=\"{}\" width=\"{}\" height=\"{}\" loading=\"lazy\" decoding=\"async\">", picture.data,
-      picture.description, picture.width, picture.height);
+  return fmt::format("<img src=\"{}\" alt=\"{}\" width=\"{}\" height=\"{}\" loading=\"lazy\" decoding=\"async\">",
+                     picture.data, picture.description, picture.width, picture.height);
 }
 
 std::string figure(const Picture& picture) {

@@ -30,7 +30,7 @@
 #include "partwise/imaging/png.h"
 #include "partwise/imaging/tile.h"
 #include "pictures.h"
-#include "repairs.h"
+#include "repair.h"
 #include "surfaces.h"
 
 namespace {
@@ -59,7 +59,8 @@ class Shelf {
   const std::vector<demo::Decomposed>& all() const { return models_; }
 
   const demo::Decomposed& operator[](std::string_view name) const {
-    const auto found = std::ranges::find_if(models_, [&](const demo::Decomposed& each) { return each.model.name == name; });
+    const auto found =
+        std::ranges::find_if(models_, [&](const demo::Decomposed& each) { return each.model.name == name; });
     PARTWISE_CHECK(found == models_.end(), ==, false);
     return *found;
   }
@@ -160,25 +161,33 @@ void run(const std::filesystem::path& folder) {
   const demo::Decomposed &horse = shelf["Horse"], &dog = shelf["Dog"];
   add("cage", "Cages", cages_chapter(demo::tell_cages(horse.mesh, horse.model.azimuth)));
   show("repairing");
-  add("repair", "Repair", repairs_chapter(demo::tell_repairs(horse.mesh, horse.model.azimuth)));
+  add("repair", "Repair", repair_chapter(demo::tell_repair(horse.mesh, horse.model.azimuth)));
   show("unfolding");
   add("nets", "Nets", nets_chapter(demo::tell_nets(dog.mesh, dog.model.azimuth)));
   show("putting materials on");
-  add("materials", "Materials", materials_chapter(tell_materials(shelf)));
-  page.story = {{"parts", "Shape", parts.models[4].pictures[0]}, {"parts", "Parts", parts.models[4].pictures[2]}};
+  const demo::MaterialsStory materials = tell_materials(shelf);
+  add("materials", "Materials", materials_chapter(materials));
+  const std::vector<demo::Picture>& car = parts.models[4].pictures;
+  page.story = {
+      {"parts", "Shapes", car[0]}, {"parts", "Parts", car[2]}, {"materials", "Appearance", materials.channels[0]}};
 #ifdef PARTWISE_DEMO_LEARNING
   show("editing pictures");
-  const std::vector<demo::WornModel> swapped = {shelf.worn("Toy car"), shelf.worn("Teddy bear"), shelf.worn("Jar"), shelf.worn("Horse")};
+  const std::vector<demo::WornModel> swapped = {shelf.worn("Toy car"), shelf.worn("Teddy bear"), shelf.worn("Jar"),
+                                                shelf.worn("Horse")};
   const demo::EditsStory edits = demo::tell_edits(shelf.worn("Toy car"), shelf.worn("Chair"), swapped);
   partwise::write_png(folder / "edits.png", edits.strip);
   add("edits", "Edits", edits_chapter(edits));
   show("finding normals");
-  const std::vector<demo::WornModel> looked_at = {shelf.worn("Toy car"), shelf.worn("Teddy bear"), shelf.worn("Coffee cup")};
-  add("normals", "Normals", normals_chapter(demo::tell_normals(looked_at)));
+  const std::vector<demo::WornModel> looked_at = {shelf.worn("Toy car"), shelf.worn("Teddy bear"),
+                                                  shelf.worn("Coffee cup")};
+  const demo::NormalsStory normals = demo::tell_normals(looked_at);
+  add("normals", "Normals", normals_chapter(normals));
+  page.story.push_back({"normals", "Shape from a photo", normals.pictures[1]});
 #endif
   show("finding ways");
   const demo::MotionStory motion = demo::tell_motion();
   add("motion", "Motion", motion_chapter(motion));
+  page.story.push_back({"motion", "Motion", motion.window.still});
 
   page.hero = heap.heap;
   page.facts = totals(parts);

@@ -38,7 +38,7 @@ std::vector<std::string> for_parts(const std::vector<std::string>& names, int pa
 
 // A ball shows its reflectance map, so that one texel a pixel is enough for balls as small as these.
 std::vector<Picture> tell_balls() {
-  const EnvironmentLight light = resized_light("venice", light_rows);
+  const EnvironmentLight light = resized_light("studio", light_rows);
   const LightTree tree(light);
   const float exposure = grey_card_exposure(light);
   const GBuffer seen = ball_view(ball_size, 16);
@@ -47,7 +47,8 @@ std::vector<Picture> tell_balls() {
   for (const std::string& name : shipped_materials()) {
     const ReflectanceMap map(PatchSum(shipped_material(name).brdf, tree), ball_size);
     const std::array worn{&map};
-    balls.push_back(make_picture(for_the_eye(on_clear_ground(mapped_image(seen, worn), mask), exposure), name, "A ball in " + name));
+    balls.push_back(make_picture(for_the_eye(on_clear_ground(mapped_image(seen, worn), mask), exposure), name,
+                                 "A ball in " + name));
   }
   return balls;
 }
@@ -156,16 +157,17 @@ wears a material of its own.</p>
          R"(<h3>What is known of each pixel</h3>
 <p>Beside the image its normals, depth, mask and parts; below, the same car in other places.</p>
 )" + figures(story.channels, "row five") +
-         figures(story.lights, "row five gap") +
-         fmt::format("<h3>{} random images</h3>\n", story.samples.size()) +
+         figures(story.lights, "row five gap") + fmt::format("<h3>{} random images</h3>\n", story.samples.size()) +
          R"(<p>Shape, viewpoint, materials, light and its turn are drawn by chance from a seed and a number. Each has its normals and parts beside it:
 so networks are taught.</p>
 )" + figures(story.samples, "row samples") +
-         fmt::format("<p class=\"note\">Drawn in {:.0f} seconds; a ball takes {:.2f}.</p>\n", story.seconds, story.ball_seconds);
+         fmt::format("<p class=\"note\">Drawn in {:.0f} seconds; a ball takes {:.2f}.</p>\n", story.seconds,
+                     story.ball_seconds);
 }
 
 std::string material_credits() {
-  return "<p>The materials are fitted to networks of Neural-BRDF (MIT licence) that reproduce the MERL BRDF database; the "
+  return "<p>The materials are fitted to networks of Neural-BRDF (MIT licence) that reproduce the MERL BRDF database; "
+         "the "
          "lights are CC0.</p>\n";
 }
 

@@ -97,7 +97,8 @@ void tell_window(MotionStory& story) {
     drawn.meshes.push_back({each.mesh, {}, each.colour, 20});
   }
   story.window = make_turnable(
-      drawn, meshes, {.slider = Slider::along, .label = "along the way", .azimuth = 15, .elevation = 42, .width = 1080},
+      drawn, meshes,
+      {.slider = Slider::along, .label = "along the way", .azimuth = 15, .elevation = 50, .width = 1080, .height = 500},
       fmt::format("never nearer than {:.2f} to a wall; the stick is 0.4 wide, the window 1",
                   path_clearance(scene, path).minimum),
       "A stick, drawn at places along its way, turns and passes a window in a wall");
@@ -138,14 +139,16 @@ std::string motion_chapter(const MotionStory& story) {
 the robot would touch, tell two obstacles apart; where they cannot decide runs the middle between the two.</p>
 <h3>Between the houses of a town</h3>
 <div class="wide">
-)" + figure(story.town) + "</div>\n";
+)" + figure(story.town) +
+                     "</div>\n";
   html += fmt::format(
       "<p>{} samples, training included. A sample is on the axis where its two smallest distances differ by at most 2 "
       "%; those of max-margin fields are checked, others are thrown away.</p>\n",
       thousands(static_cast<std::uint64_t>(story.samples)));
   html += methods_table(story.methods);
   html +=
-      "<h3>From corner to corner</h3>\n<p>The path with the smallest length over clearance, the same shortened so that it "
+      "<h3>From corner to corner</h3>\n<p>The path with the smallest length over clearance, the same shortened so that "
+      "it "
       "keeps nine tenths of its smallest clearance, and the shortest.</p>\n";
   html += ways_table(story.ways) + motion_beside();
   html += R"(<h3>Robots with a body</h3>
@@ -155,7 +158,8 @@ the robot would touch, tell two obstacles apart; where they cannot decide runs t
 }
 
 std::string motion_credits() {
-  return "<p>Footprints: Kronstadt, © <a href=\"https://www.openstreetmap.org/copyright\">OpenStreetMap contributors</a>, "
+  return "<p>Footprints: Kronstadt, © <a href=\"https://www.openstreetmap.org/copyright\">OpenStreetMap "
+         "contributors</a>, "
          "ODbL.</p>\n";
 }
 

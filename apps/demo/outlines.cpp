@@ -196,7 +196,8 @@ cut is made for them. At 0.10 R the two decompositions agree to a Rand index of 
 }
 
 std::string outline_credits() {
-  return "<p>The outlines of bird, mammoth, neuron and the shape with three holes are examples of acd2d by Jyh-Ming Lien "
+  return "<p>The outlines of bird, mammoth, neuron and the shape with three holes are examples of acd2d by Jyh-Ming "
+         "Lien "
          "(MIT licence).</p>\n";
 }
 

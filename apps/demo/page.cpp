@@ -17,11 +17,15 @@ and certifies that they do. Parts then wear materials, teach networks and keep r
 </header>
 <nav aria-label="Contents">
 )";
-  for (const Chapter& chapter : page.chapters) html += fmt::format("<a href=\"#{}\">{}</a>\n", chapter.id, chapter.name);
+  for (const Chapter& chapter : page.chapters)
+    html += fmt::format("<a href=\"#{}\">{}</a>\n", chapter.id, chapter.name);
   html += "</nav>\n<div class=\"hero\">\n" + figure(page.hero) + "</div>\n<dl class=\"facts large\">\n" + page.facts +
           "</dl>\n<div class=\"story\">\n";
-  for (const Station& station : page.story)
-    html += fmt::format("<a href=\"#{}\">{}</a>\n", station.chapter, figure(station.picture));
+  for (const Station& station : page.story) {
+    Picture picture = station.picture;
+    picture.caption = station.name;
+    html += fmt::format("<a href=\"#{}\">{}</a>\n", station.chapter, figure(picture));
+  }
   return html + "</div>\n";
 }
 
@@ -43,7 +47,8 @@ for (const auto&amp; hull : parts.hulls) add_to_world(hull);</code></pre>
 std::string closing(const Page& page) {
   return fmt::format(
       "<footer>\n{}<p>Models are turned by <a href=\"https://threejs.org\">three.js</a> (MIT licence).</p>\n"
-      "<p>Everything on this page but the figures said to be recorded earlier was computed, measured and drawn by one run of "
+      "<p>Everything on this page but the figures said to be recorded earlier was computed, measured and drawn by one "
+      "run of "
       "<code>partwise_demo</code>: {:.0f} seconds with {} threads.</p>\n</footer>\n",
       page.credits, page.seconds, page.threads);
 }

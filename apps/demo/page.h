@@ -1,4 +1,5 @@
-// The page that tells the story: one HTML file, pictures, models, style and script inside, nothing fetched from anywhere.
+// The page that tells the story: one HTML file, pictures, models, style and script inside, nothing fetched from
+// anywhere.
 #pragma once
 
 #include <string>

@@ -175,10 +175,9 @@ class Page(unittest.TestCase):
         self.assertEqual((images["outlines"], images["heap"], images["motion"]), (11, 4, 2))
         self.assertEqual((images["cage"], images["repair"], images["nets"]), (5, 4, 4))
         if "edits" in images:  # built with libtorch; edits, what was found, swaps, parts; four a photo
-            self.assertEqual((images["edits"], images["normals"]), (10 + 6 + 16 + 4, 4 * 3))
+            self.assertEqual((images["edits"], images["normals"]), (6 + 6 + 6 + 16 + 4, 4 * 3))
         self.check_surfaces(seen["rows"]["surfaces"][:16])
         self.check_motion(seen["rows"]["motion"])
-        self.check_repairs(seen["rows"]["repair"])
 
     def check_surfaces(self, rows):
         """Four features a model, with counts; only the shape diameter asks no tests."""
@@ -197,12 +196,6 @@ class Page(unittest.TestCase):
         self.assertGreater(kept, 0)
         self.assertGreaterEqual(shortened, 0.88 * kept)
         self.assertLess(shorter, length)
-
-    def check_repairs(self, rows):
-        for tolerance, parts, added, _, _, _ in rows:
-            self.assertGreater(int(parts), 1)
-            self.assertGreater(number(added), 0)
-            self.assertLess(number(added), 1.3 * number(tolerance))
 
     def test_models_turn(self):
         for width in (390, 1440):

@@ -27,7 +27,8 @@ partwise::Decomposition timed_decompose(const partwise::Mesh& mesh, const partwi
 }
 
 Row figures_row(std::string_view measure, const Figures& figures) {
-  return {std::string(measure), std::to_string(figures.parts), fmt::format("{:.3f} <small>R</small>", figures.concavity),
+  return {std::string(measure), std::to_string(figures.parts),
+          fmt::format("{:.3f} <small>R</small>", figures.concavity),
           std::isfinite(figures.volume_ratio) ? fmt::format("{:.2f}", figures.volume_ratio) : "open",
           fmt::format("{:.2f} <small>s</small>", figures.seconds)};
 }
@@ -57,8 +58,7 @@ Decomposed decompose_model(const Model& model, double tolerance) {
 Turnable turnable_parts(const Decomposed& model) {
   constexpr double apart = 0.3;
   const partwise::Decomposition& parts = model.parts;
-  std::vector<partwise::NamedMesh> meshes =
-      partwise::cli::part_meshes(parts.mesh, parts.mesh_labels, parts.parts());
+  std::vector<partwise::NamedMesh> meshes = partwise::cli::part_meshes(parts.mesh, parts.mesh_labels, parts.parts());
   partwise::PreviewScene still;
   const partwise::Point centre = middle(parts.mesh.vertices);
   for (const partwise::NamedMesh& each : meshes) {
@@ -116,7 +116,8 @@ std::string model_credits(const PartsStory& story) {
   std::string html = "<p>The models, all from the Sweet Home 3D furniture collections, stripped to their geometry: ";
   for (const PartsStory::Row& row : story.models) {
     const Model& model = row.model->model;
-    html += fmt::format("{}{} by {} ({})", &row == story.models.data() ? "" : ", ", model.name, model.author, model.licence);
+    html += fmt::format("{}{} by {} ({})", &row == story.models.data() ? "" : ", ", model.name, model.author,
+                        model.licence);
   }
   return html +
          ". Licences: <a href=\"https://creativecommons.org/publicdomain/zero/1.0/\">CC0 1.0</a>, "

@@ -1,5 +1,8 @@
 #include "taken.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "partwise/appearance/rendering/image_formation.h"
 #include "partwise/imaging/tone_mapping.h"
 
@@ -20,6 +23,12 @@ Image on_ground(const Image& codes) {
   return result;
 }
 
+Image displayed(const Image& linear, float exposure) {
+  Image codes = tone_map(linear, exposure);
+  for (float& value : codes.values) value /= 255;
+  return codes;
+}
+
 Image share_of_part(const GBuffer& seen, int part) {
   const std::vector<int> parts = seen.part_of_pixels();
   Image share = seen.mask_image();
@@ -37,9 +46,7 @@ Taken taken(const WornModel& model, const std::vector<std::string>& materials, c
   const Image mask = result.seen.mask_image();
   const Image image = worn_image(result.seen, brdfs_of(materials), result.light, true);
   result.exposure = exposure_by_median(image, mask);
-  Image codes = tone_map(on_clear_ground(image, mask), result.exposure);
-  for (float& value : codes.values) value /= 255;
-  result.photo.shown = on_ground(codes);
+  result.photo.shown = on_ground(displayed(on_clear_ground(image, mask), result.exposure));
   result.photo.alpha = Image(picture_size, picture_size, 1, 1);
   if (parts_apart) {
     for (int part = 0; part < static_cast<int>(materials.size()); ++part)
@@ -48,6 +55,19 @@ Taken taken(const WornModel& model, const std::vector<std::string>& materials, c
     result.photo.regions.push_back(mask);
   }
   return result;
+}
+
+Image exposed_anew(const Image& shown, const Image& mask) {
+  Image object(shown.width, shown.height, 4);  // linear, without the ground
+  for (std::size_t i = 0; i < mask.values.size(); ++i) {
+    const float share = mask.values[i];
+    for (std::size_t c = 0; c < 3 && share > 0; ++c) {
+      const float own = (shown.values[3 * i + c] - (1 - share) * ground) / share;
+      object.values[4 * i + c] = std::pow(std::clamp(own, 0.0f, 1.0f), 2.2f);
+    }
+    object.values[4 * i + 3] = share;
+  }
+  return on_ground(displayed(object, exposure_by_median(object, mask)));
 }
 
 WornModel whole(WornModel model) {

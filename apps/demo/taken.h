@@ -21,6 +21,9 @@ struct Taken {
 Taken taken(const WornModel& model, const std::vector<std::string>& materials, const std::string& light, double azimuth,
             bool parts_apart = false);
 
+// What is shown of an object on that ground, exposed as a camera would expose it: by the object's median.
+partwise::Image exposed_anew(const partwise::Image& shown, const partwise::Image& mask);
+
 WornModel whole(WornModel model);  // in one part
 
 }  // namespace demo

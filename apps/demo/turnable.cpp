@@ -28,12 +28,12 @@ std::string glb_of(std::span<const partwise::NamedMesh> meshes) {
   return std::move(out).str();
 }
 
-// The upright cylinder about all of them, as two rings of points.
-partwise::Vertices cylinder_of(std::span<const partwise::NamedMesh> meshes, const Eigen::AlignedBox3d& box) {
+// The upright cylinder about them, as two rings of points.
+partwise::Vertices cylinder_of(std::span<const partwise::Vertices* const> shapes, const Eigen::AlignedBox3d& box) {
   const Point centre = box.center().transpose();
   double radius = 0;
-  for (const partwise::NamedMesh& each : meshes) {
-    for (const auto& p : each.mesh.vertices.rowwise())
+  for (const partwise::Vertices* points : shapes) {
+    for (const auto& p : points->rowwise())
       radius = std::max(radius, std::hypot(p.x() - centre.x(), p.z() - centre.z()));
   }
   constexpr int corners = 32;
@@ -55,11 +55,14 @@ constexpr std::string_view name_of(Slider slider) {
 
 Turnable make_turnable(const partwise::PreviewScene& still, std::span<const partwise::NamedMesh> meshes,
                        const Turning& turning, std::string caption, std::string description) {
+  std::vector<const partwise::Vertices*> shapes;
+  for (const partwise::PreviewMesh& each : still.meshes) shapes.push_back(&each.mesh.vertices);
+  for (const partwise::NamedMesh& each : meshes) shapes.push_back(&each.mesh.vertices);
   Eigen::AlignedBox3d box;
-  for (const partwise::NamedMesh& each : meshes) {
-    for (const auto& p : each.mesh.vertices.rowwise()) box.extend(p.transpose());
+  for (const partwise::Vertices* points : shapes) {
+    for (const auto& p : points->rowwise()) box.extend(p.transpose());
   }
-  const partwise::Vertices rings = cylinder_of(meshes, box);
+  const partwise::Vertices rings = cylinder_of(shapes, box);
   const partwise::RoundPoints framed{&rings, 0};
   const partwise::Camera camera =
       partwise::frame_points({&framed, 1}, {.azimuth = turning.azimuth, .elevation = turning.elevation, .fill = 0.94},
@@ -91,10 +94,10 @@ std::string figure(const Turnable& model, std::string_view id) {
 
 std::string viewer_scripts() {
   const std::filesystem::path three = PARTWISE_DEMO_THREE;
-  std::string html;
+  std::string html = fmt::format("<!--\n{}-->\n", three_licence);
   for (const char* file : {"three.min.js", "examples/js/loaders/GLTFLoader.js"})
-    html += fmt::format("<script type=\"text/plain\" class=\"three\">\n{}</script>\n",
-                        partwise::read_bytes(three / file));
+    html +=
+        fmt::format("<script type=\"text/plain\" class=\"three\">\n{}</script>\n", partwise::read_bytes(three / file));
   return html + fmt::format("<script>\n{}</script>\n", viewer_script);
 }
 

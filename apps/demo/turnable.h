@@ -35,7 +35,8 @@ struct Turning {
   int width = 720, height = 560;
 };
 
-// The camera keeps its distance when the model is turned about its vertical axis, so all of `meshes` stays in view.
+// The camera keeps its distance when the model is turned about its vertical axis; from there the still picture's
+// meshes and all of `meshes` are in view.
 Turnable make_turnable(const partwise::PreviewScene& still, std::span<const partwise::NamedMesh> meshes,
                        const Turning& turning, std::string caption, std::string description);
 
