@@ -65,7 +65,7 @@ Turnable make_turnable(const partwise::PreviewScene& still, std::span<const part
   const partwise::Vertices rings = cylinder_of(shapes, box);
   const partwise::RoundPoints framed{&rings, 0};
   const partwise::Camera camera =
-      partwise::frame_points({&framed, 1}, {.azimuth = turning.azimuth, .elevation = turning.elevation, .fill = 0.94},
+      partwise::frame_points({&framed, 1}, {.azimuth = turning.azimuth, .elevation = turning.elevation, .fill = 1},
                              static_cast<double>(turning.width) / turning.height);
   const Point back = camera.axes.row(2);
   const Point about = camera.position - back * (camera.position - Point(box.center().transpose())).dot(back);

@@ -108,10 +108,10 @@
       this.scene = new THREE.Scene();
       const nodes = [];
       model.scene.traverse(node => { if (node.isMesh) nodes.push(prepare(node)); });
-      const lamp = new THREE.DirectionalLight(0xffffff, 2.1);
+      const lamp = new THREE.DirectionalLight(0xffffff, 0.6);
       lamp.position.set(-1, 1.6, 1.2);
       this.camera.add(lamp);
-      this.scene.add(model.scene, this.camera, new THREE.HemisphereLight(0xf4f6ff, 0x8a8378, 1.7));
+      this.scene.add(model.scene, this.camera, new THREE.HemisphereLight(0xf4f6ff, 0x8a8378, 0.55));
 
       this.canvas = document.createElement('canvas');
       this.canvas.tabIndex = 0;
