@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <initializer_list>
+#include <set>
 #include <utility>
 
 #include "history.h"
@@ -27,8 +27,9 @@ std::string note(std::string_view text) { return fmt::format("<p class=\"note\">
 
 // "2026-11-24", or "2026-11-24 to 2026-11-26".
 std::string dates_of(std::initializer_list<const json*> runs) {
-  const auto [first, last] = std::ranges::minmax(runs, {}, [](const json* run) { return date_of(*run); });
-  return date_of(*first) == date_of(*last) ? date_of(*first) : date_of(*first) + " to " + date_of(*last);
+  std::set<std::string> dates;
+  for (const json* run : runs) dates.insert(date_of(*run));
+  return dates.size() == 1 ? *dates.begin() : *dates.begin() + " to " + *dates.rbegin();
 }
 
 std::string rand_error(const json& run) { return fmt::format("{:.3f}", run["rand_error"].get<double>()); }
