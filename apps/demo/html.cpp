@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "page_style.h"
-#include "partwise/imaging/png.h"
+#include "page_assets.h"
+#include "webp.h"
 
 namespace demo {
-namespace {
-
 std::string base64(std::string_view bytes) {
   constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
@@ -25,8 +23,6 @@ std::string base64(std::string_view bytes) {
   }
   return text;
 }
-
-}  // namespace
 
 std::string page_head(std::string_view title) {
   return fmt::format(
@@ -47,17 +43,31 @@ std::string page_head(std::string_view title) {
       title, page_style);
 }
 
-std::string figure(const Picture& picture, std::string_view loading) {
-  return fmt::format(
-      "<figure><img src=\"{}\" alt=\"{}\" width=\"{}\" height=\"{}\" "
-      "loading=\"{}\"><figcaption>{}</figcaption></figure>\n",
-      picture.data, picture.description, picture.width, picture.height, loading, picture.caption);
+std::string image(const Picture& picture) {
+  return fmt::format("<img src=\"{}\" alt=\"{}\" width=\"{}\" height=\"{}\" loading=\"lazy\" decoding=\"async\">",
+                     picture.data, picture.description, picture.width, picture.height);
+}
+
+std::string figure(const Picture& picture) {
+  return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", image(picture), picture.caption);
 }
 
 std::string figures(const std::vector<Picture>& pictures, std::string_view css_class) {
   std::string html = fmt::format("<div class=\"{}\">\n", css_class);
-  for (const Picture& picture : pictures) html += figure(picture, "eager");
+  for (const Picture& picture : pictures) html += figure(picture);
   return html + "</div>\n";
+}
+
+std::string table(const Row& heads, const std::vector<Row>& rows) {
+  std::string html = "<table>\n<thead><tr>";
+  for (const std::string& head : heads) html += fmt::format("<th scope=\"col\">{}</th>", head);
+  html += "</tr></thead>\n<tbody>\n";
+  for (const Row& row : rows) {
+    html += fmt::format("<tr><th scope=\"row\">{}</th>", row.front());
+    for (std::size_t i = 1; i < row.size(); ++i) html += fmt::format("<td>{}</td>", row[i]);
+    html += "</tr>\n";
+  }
+  return html + "</tbody>\n</table>\n";
 }
 
 std::string fact(std::string_view name, std::string_view value, std::string_view unit) {
@@ -73,7 +83,7 @@ std::string thousands(std::uint64_t number) {
 }
 
 Picture make_picture(const partwise::Image& image, std::string caption, std::string description) {
-  return {"data:image/png;base64," + base64(partwise::encode_png(image)), std::move(caption), std::move(description),
+  return {"data:image/webp;base64," + base64(encode_webp(image)), std::move(caption), std::move(description),
           image.width, image.height};
 }
 

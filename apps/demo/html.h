@@ -21,11 +21,19 @@ Picture make_picture(const partwise::Image& image, std::string caption, std::str
 // Of an SVG drawing, which must say its width and height.
 Picture make_drawing(const std::string& svg, std::string caption, std::string description);
 
+std::string base64(std::string_view bytes);
+
 // From the doctype to the opening of main.
 std::string page_head(std::string_view title);
 
-std::string figure(const Picture& picture, std::string_view loading);
+// Browsers decode pictures when they are about to be seen.
+std::string image(const Picture& picture);
+std::string figure(const Picture& picture);
 std::string figures(const std::vector<Picture>& pictures, std::string_view css_class);
+
+// The first cell of a row names it.
+using Row = std::vector<std::string>;
+std::string table(const Row& heads, const std::vector<Row>& rows);
 
 // A term and its value, for a list of them.
 std::string fact(std::string_view name, std::string_view value, std::string_view unit = "");

@@ -1,7 +1,6 @@
-// partwise_demo OUT_DIR: decomposes the shipped models, draws them, lets copies of them fall into a heap, and writes
-// OUT_DIR/index.html, materials.html, motion.html and, in a build with libtorch, edits.html, self-contained pages,
-// OUT_DIR/hero.png, four models, their parts and hulls in one picture, and OUT_DIR/edits.png, a picture of a car and
-// edits of it.
+// partwise_demo OUT_DIR: decomposes the shipped models and does with them what the library can, and writes
+// OUT_DIR/index.html, one self-contained page, OUT_DIR/hero.png, four models, their parts and hulls in one picture,
+// and, in a build with libtorch, OUT_DIR/edits.png, a picture of a car and edits of it.
 
 #include <fmt/format.h>
 #include <tbb/info.h>
@@ -14,19 +13,24 @@
 #include <filesystem>
 #include <future>
 
-#ifdef PARTWISE_DEMO_EDITS
+#include "cages.h"
+#ifdef PARTWISE_DEMO_LEARNING
 #include "edits.h"
+#include "normals.h"
 #endif
+#include "heap.h"
 #include "materials.h"
 #include "motion.h"
+#include "nets.h"
 #include "outlines.h"
 #include "page.h"
+#include "parts.h"
 #include "partwise/base/atomic_file.h"
-#include "partwise/base/shared_files.h"
-#include "partwise/geometry/mesh_io.h"
+#include "partwise/base/error.h"
 #include "partwise/imaging/png.h"
 #include "partwise/imaging/tile.h"
 #include "pictures.h"
+#include "repair.h"
 #include "surfaces.h"
 
 namespace {
@@ -42,35 +46,38 @@ void show(const std::string& what) {
   std::fflush(stdout);
 }
 
-struct Decomposed {
-  partwise::Mesh mesh;
-  partwise::Decomposition parts;
+// The decomposed models, by their names.
+class Shelf {
+ public:
+  Shelf(std::span<const demo::Model> models, double tolerance) {
+    for (const demo::Model& model : models) {
+      show(fmt::format("decomposing: {} ({} of {})", model.name, models_.size() + 1, models.size()));
+      models_.push_back(demo::decompose_model(model, tolerance));
+    }
+  }
+
+  const std::vector<demo::Decomposed>& all() const { return models_; }
+
+  const demo::Decomposed& operator[](std::string_view name) const {
+    const auto found =
+        std::ranges::find_if(models_, [&](const demo::Decomposed& each) { return each.model.name == name; });
+    PARTWISE_CHECK(found == models_.end(), ==, false);
+    return *found;
+  }
+
+  demo::WornModel worn(std::string_view name) const {
+    const demo::Decomposed& model = (*this)[name];
+    return {std::string(name), model.parts.mesh, model.parts.mesh_labels};
+  }
+
+ private:
+  std::vector<demo::Decomposed> models_;
 };
 
-partwise::Decomposition timed_decompose(const partwise::Mesh& mesh, const partwise::DecompositionSettings& settings,
-                                        demo::Figures& figures) {
-  const Clock::time_point start = Clock::now();
-  partwise::Decomposition parts = partwise::decompose(mesh, settings);
-  figures = {parts.parts(), parts.concavity, parts.volume_ratio, seconds_since(start)};
-  return parts;
-}
-
-Decomposed decompose_model(const demo::Model& model, double tolerance, demo::ModelStory& story) {
-  Decomposed result;
-  result.mesh = partwise::read_mesh(partwise::shared_file("data/models") / model.file);
-  result.parts = timed_decompose(result.mesh, {.tolerance = tolerance}, story.hull);
-  timed_decompose(result.mesh, {.tolerance = tolerance, .measure = partwise::ConcavityMeasure::valley}, story.valley);
-  story.model = model;
-  story.faces = static_cast<int>(result.mesh.faces.rows());
-  story.watertight = result.parts.watertight;
-  return result;
-}
-
-std::vector<demo::Picture> tell_pictures(const demo::Model& model, const Decomposed& decomposed,
-                                         const demo::ModelPictures& drawn) {
+std::vector<demo::Picture> tell_pictures(const demo::Decomposed& model, const demo::ModelPictures& drawn) {
   std::vector<demo::Picture> pictures;
   const auto add = [&](const partwise::Image& image, std::string caption, std::string_view shown) {
-    pictures.push_back(demo::make_picture(image, std::move(caption), fmt::format("{}: {}", model.name, shown)));
+    pictures.push_back(demo::make_picture(image, std::move(caption), fmt::format("{}: {}", model.model.name, shown)));
   };
   add(drawn.input, "Input", "the mesh as it came");
   const auto count = [](int number, std::string_view of) {
@@ -78,25 +85,9 @@ std::vector<demo::Picture> tell_pictures(const demo::Model& model, const Decompo
   };
   add(drawn.ridges, count(drawn.ridge_count, "ridge") + ", " + count(drawn.valley_count, "valley"),
       "the deep valleys as lines, the convex ridges as beads");
-  add(drawn.parts, count(decomposed.parts.parts(), "part"), "faces in the colours of their parts");
+  add(drawn.parts, count(model.parts.parts(), "part"), "faces in the colours of their parts");
   add(drawn.hulls, "Hulls, drawn apart", "the convex hull of each part");
   return pictures;
-}
-
-demo::PileStory tell_pile(const demo::PileSettings& settings, const demo::Pile& pile) {
-  demo::PileStory story{settings.bodies, pile.hulls, settings.seconds, pile.seconds, pile.deepest, {}, {}, {}};
-  const demo::PilePictures drawn = demo::draw_pile(pile, settings);
-  for (std::size_t i = 0; i < drawn.falling.size(); ++i) {
-    const std::string when = fmt::format("after {:.1f} s", settings.frames[i]);
-    story.falling.push_back(demo::make_picture(drawn.falling[i], when, "Bodies falling, " + when));
-  }
-  story.heap = demo::make_picture(
-      drawn.heap,
-      fmt::format("{} decomposed models at rest, simulated as {} convex hulls", settings.bodies, pile.hulls),
-      "A heap of horses, chairs, cups and other models");
-  story.heap_hulls = demo::make_picture(drawn.heap_hulls, "The same heap as the physics engine sees it",
-                                        "The same heap drawn as coloured convex hulls");
-  return story;
 }
 
 // A column a model: input, parts, hulls.
@@ -108,70 +99,104 @@ void write_hero(const std::filesystem::path& path, const std::vector<demo::Model
   partwise::write_png(path, partwise::tile(pictures, static_cast<int>(models.size())));
 }
 
+demo::PartsStory tell_parts(const Shelf& shelf, double tolerance, const std::filesystem::path& folder) {
+  demo::PartsStory story{tolerance, {}, {}};
+  std::vector<demo::ModelPictures> hero;
+  for (const demo::Decomposed& model : shelf.all()) {
+    show(fmt::format("drawing: {} ({} of {})", model.model.name, story.models.size() + 1, shelf.all().size()));
+    demo::ModelPictures drawn = demo::draw_model(model.mesh, model.parts, model.model.azimuth);
+    story.models.push_back({&model, tell_pictures(model, drawn)});
+    if (model.model.in_hero) hero.push_back(std::move(drawn));
+  }
+  write_hero(folder / "hero.png", hero);
+  for (const char* name : {"Horse", "Toy car"}) story.turned.push_back(demo::turnable_parts(shelf[name]));
+  return story;
+}
+
+demo::OutlineStory tell_outlines(const Shelf& shelf) {
+  std::vector<const partwise::Mesh*> herd;
+  for (const demo::Decomposed& model : shelf.all()) {
+    if (model.model.in_herd) herd.push_back(&model.mesh);
+  }
+  return demo::tell_outlines(herd);
+}
+
+demo::SurfacesStory tell_surfaces(const Shelf& shelf) {
+  std::vector<demo::ShownModel> shown;
+  for (const demo::Decomposed& model : shelf.all()) shown.push_back({&model.model, &model.mesh});
+  return demo::tell_surfaces(shown);
+}
+
+demo::MaterialsStory tell_materials(const Shelf& shelf) {
+  std::vector<demo::WornModel> worn;
+  for (const demo::Decomposed& model : shelf.all()) worn.push_back(shelf.worn(model.model.name));
+  return demo::tell_materials(worn, shelf.worn("Chair"), shelf.worn("Toy car"));
+}
+
 void run(const std::filesystem::path& folder) {
   const Clock::time_point start = Clock::now();
+  constexpr double tolerance = 0.1;
   std::filesystem::create_directories(folder);
-  demo::Story story;
-  story.tolerance = 0.1;
-  story.threads = tbb::info::default_concurrency();
-  const std::span<const demo::Model> models = demo::models();
-  std::vector<Decomposed> decomposed;
-  for (const demo::Model& model : models) {
-    show(fmt::format("decomposing: {} ({} of {})", model.name, decomposed.size() + 1, models.size()));
-    decomposed.push_back(decompose_model(model, story.tolerance, story.models.emplace_back()));
-  }
+  const Shelf shelf(demo::models(), tolerance);
   // The simulation uses one core, so the models' pictures are drawn beside it.
   std::vector<demo::PileKind> kinds;
-  kinds.reserve(decomposed.size());
-  for (const Decomposed& model : decomposed) kinds.push_back({&model.mesh, &model.parts});
+  for (const demo::Decomposed& model : shelf.all()) kinds.push_back({&model.mesh, &model.parts});
   const demo::PileSettings settings;
   std::future<demo::Pile> pile = std::async(std::launch::async, [&] { return demo::simulate_pile(kinds, settings); });
-  std::vector<demo::ModelPictures> hero;
-  for (std::size_t i = 0; i < models.size(); ++i) {
-    show(fmt::format("drawing: {} ({} of {})", models[i].name, i + 1, models.size()));
-    demo::ModelPictures drawn = demo::draw_model(decomposed[i].mesh, decomposed[i].parts, models[i].azimuth);
-    story.models[i].pictures = tell_pictures(models[i], decomposed[i], drawn);
-    if (models[i].in_hero) hero.push_back(std::move(drawn));
-  }
-  show("cutting outlines");
-  std::vector<const partwise::Mesh*> herd;
-  for (std::size_t i = 0; i < models.size(); ++i) {
-    if (models[i].in_herd) herd.push_back(&decomposed[i].mesh);
-  }
-  story.outlines = demo::tell_outlines(herd);
-  show("looking at surfaces");
-  std::vector<demo::ShownModel> shown;
-  shown.reserve(models.size());
-  for (std::size_t i = 0; i < models.size(); ++i) shown.push_back({&models[i], &decomposed[i].mesh});
-  story.surfaces = demo::tell_surfaces(shown);
-  show("putting materials on");
-  std::vector<demo::WornModel> worn;
-  for (std::size_t i = 0; i < models.size(); ++i)
-    worn.push_back({std::string(models[i].name), decomposed[i].parts.mesh, decomposed[i].parts.mesh_labels});
-  const auto named = [&](std::string_view name) {
-    return *std::ranges::find_if(worn, [&](const demo::WornModel& model) { return model.name == name; });
+  const demo::PartsStory parts = tell_parts(shelf, tolerance, folder);
+
+  demo::Page page;
+  const auto add = [&](std::string_view id, std::string_view name, std::string html) {
+    page.chapters.push_back({id, name, std::move(html)});
   };
-  const demo::MaterialsStory materials = demo::tell_materials(worn, named("Chair"), named("Toy car"));
-  partwise::write_file(folder / "materials.html", demo::make_materials_page(materials));
-  story.others.push_back({"materials.html", "Parts in real materials, under real light"});
-#ifdef PARTWISE_DEMO_EDITS
+  add("parts", "Parts", parts_chapter(parts));
+  show("simulating and drawing the heap");
+  const demo::HeapStory heap = demo::tell_heap(settings, pile.get());
+  add("heap", "Simulation", heap_chapter(heap));
+  show("cutting outlines");
+  add("outlines", "In the plane", outlines_chapter(tell_outlines(shelf)));
+  show("looking at surfaces");
+  add("surfaces", "As people see them", surfaces_chapter(tell_surfaces(shelf)));
+  show("putting the horse into a cage");
+  const demo::Decomposed &horse = shelf["Horse"], &dog = shelf["Dog"];
+  add("cage", "Cages", cages_chapter(demo::tell_cages(horse.mesh, horse.model.azimuth)));
+  show("repairing");
+  add("repair", "Repair", repair_chapter(demo::tell_repair(horse.mesh, horse.model.azimuth)));
+  show("unfolding");
+  add("nets", "Nets", nets_chapter(demo::tell_nets(dog.mesh, dog.model.azimuth)));
+  show("putting materials on");
+  const demo::MaterialsStory materials = tell_materials(shelf);
+  add("materials", "Materials", materials_chapter(materials));
+  const std::vector<demo::Picture>& car = parts.models[4].pictures;
+  page.story = {
+      {"parts", "Shapes", car[0]}, {"parts", "Parts", car[2]}, {"materials", "Appearance", materials.channels[0]}};
+#ifdef PARTWISE_DEMO_LEARNING
   show("editing pictures");
-  const std::vector<demo::WornModel> swapped = {named("Toy car"), named("Teddy bear"), named("Jar"), named("Horse")};
-  const demo::EditsStory edits = demo::tell_edits(named("Toy car"), named("Chair"), swapped);
+  const std::vector<demo::WornModel> swapped = {shelf.worn("Toy car"), shelf.worn("Teddy bear"), shelf.worn("Jar"),
+                                                shelf.worn("Horse")};
+  const demo::EditsStory edits = demo::tell_edits(shelf.worn("Toy car"), shelf.worn("Chair"), swapped);
   partwise::write_png(folder / "edits.png", edits.strip);
-  partwise::write_file(folder / "edits.html", demo::make_edits_page(edits));
-  story.others.push_back({"edits.html", "One picture in, any material out"});
+  add("edits", "Edits", edits_chapter(edits));
+  show("finding normals");
+  const std::vector<demo::WornModel> looked_at = {shelf.worn("Toy car"), shelf.worn("Teddy bear"),
+                                                  shelf.worn("Coffee cup")};
+  const demo::NormalsStory normals = demo::tell_normals(looked_at);
+  add("normals", "Normals", normals_chapter(normals));
+  page.story.push_back({"normals", "Shape from a photo", normals.pictures[1]});
 #endif
   show("finding ways");
-  partwise::write_file(folder / "motion.html", demo::make_motion_page(demo::tell_motion()));
-  story.others.push_back({"motion.html", "Ways that keep their distance"});
-  show("simulating and drawing the heap");
-  story.pile = tell_pile(settings, pile.get());
-  story.seconds = seconds_since(start);
-  write_hero(folder / "hero.png", hero);
-  partwise::write_file(folder / "index.html", demo::make_page(story));
+  const demo::MotionStory motion = demo::tell_motion();
+  add("motion", "Motion", motion_chapter(motion));
+  page.story.push_back({"motion", "Motion", motion.window.still});
+
+  page.hero = heap.heap;
+  page.facts = totals(parts);
+  page.credits = model_credits(parts) + demo::outline_credits() + demo::material_credits() + demo::motion_credits();
+  page.threads = tbb::info::default_concurrency();
+  page.seconds = seconds_since(start);
+  partwise::write_file(folder / "index.html", make_page(page));
   show("");
-  fmt::print("{} models and a heap of {} in {:.1f} s: {}\n", models.size(), settings.bodies, story.seconds,
+  fmt::print("{} models and a heap of {} in {:.1f} s: {}\n", shelf.all().size(), settings.bodies, page.seconds,
              (folder / "index.html").string());
 }
 

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "partwise/appearance/material/material_files.h"
+#include "partwise/appearance/rendering/image_formation.h"
 #include "partwise/appearance/rendering/material_ball.h"
 #include "partwise/appearance/shapes/part_groups.h"
 #include "partwise/appearance/synthesis/sample_plan.h"
@@ -23,7 +24,7 @@ namespace {
 using namespace partwise;
 using Clock = std::chrono::steady_clock;
 
-constexpr int ball_size = 112, chair_size = 300, channel_size = 240, sample_size = 128;
+constexpr int ball_size = 96, chair_size = 300, channel_size = 240, sample_size = 128;
 constexpr int light_rows = 128;  // of mirrors and what one looks at closely; random images take half as many
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -35,14 +36,19 @@ std::vector<std::string> for_parts(const std::vector<std::string>& names, int pa
   return worn;
 }
 
+// A ball shows its reflectance map, so that one texel a pixel is enough for balls as small as these.
 std::vector<Picture> tell_balls() {
-  const EnvironmentLight light = resized_light("venice", light_rows);
+  const EnvironmentLight light = resized_light("studio", light_rows);
   const LightTree tree(light);
   const float exposure = grey_card_exposure(light);
+  const GBuffer seen = ball_view(ball_size, 16);
+  const Image mask = seen.mask_image();
   std::vector<Picture> balls;
   for (const std::string& name : shipped_materials()) {
-    balls.push_back(make_picture(for_the_eye(material_ball(shipped_material(name).brdf, tree, ball_size), exposure),
-                                 name, "A ball in " + name));
+    const ReflectanceMap map(PatchSum(shipped_material(name).brdf, tree), ball_size);
+    const std::array worn{&map};
+    balls.push_back(make_picture(for_the_eye(on_clear_ground(mapped_image(seen, worn), mask), exposure), name,
+                                 "A ball in " + name));
   }
   return balls;
 }
@@ -88,7 +94,7 @@ void tell_channels(WornModel car, MaterialsStory& story) {
 }
 
 std::vector<Picture> tell_samples(std::span<const WornModel> models) {
-  constexpr int count = 60, most_parts = 4;
+  constexpr int count = 24, most_parts = 4;
   const std::vector<std::string> names = shipped_materials(), lights = shipped_lights();
   std::vector<WornModel> worn(models.begin(), models.end());
   std::vector<int> parts;
@@ -137,43 +143,32 @@ MaterialsStory tell_materials(std::span<const WornModel> models, const WornModel
   return story;
 }
 
-std::string make_materials_page(const MaterialsStory& story) {
-  std::string html = page_head("Partwise: materials and light");
-  html += R"(<header>
-<p class="name"><a href="index.html">Partwise</a></p>
-<h1>Parts in real materials, under real light</h1>
+std::string materials_chapter(const MaterialsStory& story) {
+  return R"(<h2>Parts in real materials, under real light</h2>
 <p class="lead">A hundred measured materials, 108 numbers each; fourteen real places as light; and parts that the program finds itself,
 so that every image comes with its normals, depth, mask and parts.</p>
-</header>
-<section>
-<h2>A hundred materials</h2>
+<h3>A hundred materials</h3>
 <p>The materials of the MERL database as three lobes about the half-vector. All balls have one light and one exposure, that of a grey card.</p>
-)";
-  html += figures(story.balls, "wall") + R"(</section>
-<section>
-<h2>One chair, many materials</h2>
+)" + figures(story.balls, "wall") +
+         R"(<h3>One chair, many materials</h3>
 <p>The chair is cut into parts by averaged visibility. Parts that look alike are one group, small ones join what they lie at, and each group
 wears a material of its own.</p>
 )" + figures(story.chairs, "row") +
-          R"(</section>
-<section>
-<h2>What is known of each pixel</h2>
+         R"(<h3>What is known of each pixel</h3>
 <p>Beside the image its normals, depth, mask and parts; below, the same car in other places.</p>
 )" + figures(story.channels, "row five") +
-          figures(story.lights, "row five gap") +
-          R"(</section>
-<section>
-<h2>Sixty random images</h2>
-<p>Shape, viewpoint, materials, light and its turn are drawn by chance from a seed and a number. Each has its normals and parts beside it.</p>
-)" + figures(story.samples, "row samples");
-  html += fmt::format(
-      "</section>\n</main>\n<footer>\n<p>The materials are fitted to networks of Neural-BRDF (MIT licence) that "
-      "reproduce the MERL "
-      "BRDF database; the lights are CC0. The models are those of <a href=\"index.html\">the first page</a>, "
-      "where their authors are named.</p>\n<p>Drawn by <code>partwise_demo</code> in {:.0f} seconds; a ball takes "
-      "{:.2f}.</p>\n</footer>\n</body>\n</html>\n",
-      story.seconds, story.ball_seconds);
-  return html;
+         figures(story.lights, "row five gap") + fmt::format("<h3>{} random images</h3>\n", story.samples.size()) +
+         R"(<p>Shape, viewpoint, materials, light and its turn are drawn by chance from a seed and a number. Each has its normals and parts beside it:
+so networks are taught.</p>
+)" + figures(story.samples, "row samples") +
+         fmt::format("<p class=\"note\">Drawn in {:.0f} seconds; a ball takes {:.2f}.</p>\n", story.seconds,
+                     story.ball_seconds);
+}
+
+std::string material_credits() {
+  return "<p>The materials are fitted to networks of Neural-BRDF (MIT licence) that reproduce the MERL BRDF database; "
+         "the "
+         "lights are CC0.</p>\n";
 }
 
 }  // namespace demo

@@ -1,9 +1,10 @@
-// What the page of materials shows: balls in all that ship, a chair whose parts wear different ones, what is known of
+// What the page shows of materials: balls in all that ship, a chair whose parts wear different ones, what is known of
 // each pixel of an image, and random images as networks are trained on.
 #pragma once
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "html.h"
@@ -21,6 +22,7 @@ struct MaterialsStory {
 // segmented anew.
 MaterialsStory tell_materials(std::span<const WornModel> models, const WornModel& chair, const WornModel& car);
 
-std::string make_materials_page(const MaterialsStory& story);
+std::string materials_chapter(const MaterialsStory& story);
+std::string material_credits();
 
 }  // namespace demo

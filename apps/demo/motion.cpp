@@ -6,6 +6,7 @@
 #include <chrono>
 #include <memory>
 
+#include "beside.h"
 #include "motion_pictures/path_scene.h"
 #include "motion_pictures/roadmap_pictures.h"
 #include "partwise/base/error.h"
@@ -15,7 +16,6 @@
 #include "partwise/motion/margin_push.h"
 #include "partwise/motion/path_simplify.h"
 #include "partwise/motion/world.h"
-#include "pictures.h"
 
 namespace demo {
 namespace {
@@ -74,6 +74,13 @@ void tell_town(MotionStory& story) {
       "A plan of a town with the lines that are as far from one house as from the next, and a way along them");
 }
 
+// From z up to y up: the ground lies flat.
+Mesh laid_down(Mesh mesh) {
+  mesh.vertices.col(1).swap(mesh.vertices.col(2));
+  mesh.vertices.col(2) *= -1;
+  return mesh;
+}
+
 void tell_window(MotionStory& story) {
   const PlanningProblem problem = read_planning_problem(shared_file("examples/window.json"));
   const ProblemScene made = problem_scene(problem);
@@ -83,36 +90,36 @@ void tell_window(MotionStory& story) {
   planner.add_start(problem.queries.front().start);
   planner.add_goal(problem.queries.front().goal);
   const MotionPath path = simplified(scene, planner.solve({}));
+  std::vector<NamedMesh> meshes = path_scene(problem, scene.space(), path);
   PreviewScene drawn;
-  for (NamedMesh& each : path_scene(problem, scene.space(), path))
-    drawn.meshes.push_back({std::move(each.mesh), {}, each.colour, 20});
-  story.window = make_picture(draw(drawn, 0, {.width = 900, .height = 600}),
-                              fmt::format("never nearer than {:.2f} to a wall; the stick is 0.4 wide, the window 1",
-                                          path_clearance(scene, path).minimum),
-                              "A stick, drawn at places along its way, turns and passes a window in a wall");
+  for (NamedMesh& each : meshes) {
+    each.mesh = laid_down(std::move(each.mesh));
+    drawn.meshes.push_back({each.mesh, {}, each.colour, 20});
+  }
+  story.window = make_turnable(
+      drawn, meshes,
+      {.slider = Slider::along, .label = "along the way", .azimuth = 15, .elevation = 50, .width = 1080, .height = 500},
+      fmt::format("never nearer than {:.2f} to a wall; the stick is 0.4 wide, the window 1",
+                  path_clearance(scene, path).minimum),
+      "A stick, drawn at places along its way, turns and passes a window in a wall");
 }
 
 std::string methods_table(const std::vector<AxisStory>& methods) {
-  std::string html =
-      "<table>\n<thead><tr><th scope=\"col\">method</th><th scope=\"col\">time</th><th scope=\"col\">on the axis</th>"
-      "</tr></thead>\n<tbody>\n";
+  std::vector<Row> rows;
   for (const AxisStory& each : methods) {
-    html += fmt::format("<tr><th scope=\"row\">{}</th><td>{:.2f} <small>s</small></td><td>{:.1f} %</td></tr>\n",
-                        each.name, each.seconds, 100 * each.on_axis);
+    rows.push_back({std::string(each.name), fmt::format("{:.2f} <small>s</small>", each.seconds),
+                    fmt::format("{:.1f} %", 100 * each.on_axis)});
   }
-  return html + "</tbody>\n</table>\n";
+  return table({"method", "time", "on the axis"}, rows);
 }
 
 std::string ways_table(const std::vector<WayStory>& ways) {
-  std::string html =
-      "<table>\n<thead><tr><th scope=\"col\">way</th><th scope=\"col\">length</th><th scope=\"col\">narrowest</th>"
-      "</tr></thead>\n<tbody>\n";
+  std::vector<Row> rows;
   for (const WayStory& each : ways) {
-    html += fmt::format(
-        "<tr><th scope=\"row\">{}</th><td>{:.0f} <small>m</small></td><td>{:.2f} <small>m</small></td></tr>\n",
-        each.name, each.length, each.clearance);
+    rows.push_back({std::string(each.name), fmt::format("{:.0f} <small>m</small>", each.length),
+                    fmt::format("{:.2f} <small>m</small>", each.clearance)});
   }
-  return html + "</tbody>\n</table>\n";
+  return table({"way", "length", "narrowest"}, rows);
 }
 
 }  // namespace
@@ -126,18 +133,14 @@ MotionStory tell_motion() {
   return story;
 }
 
-std::string make_motion_page(const MotionStory& story) {
-  std::string html = page_head("Partwise: ways that keep their distance");
-  html += R"(<header>
-<p class="name"><a href="index.html">Partwise</a></p>
-<h1>Ways that keep their distance</h1>
+std::string motion_chapter(const MotionStory& story) {
+  std::string html = R"(<h2>Ways that keep their distance</h2>
 <p class="lead">A robot that stays as far from one obstacle as from the next is safest. Classifiers with the largest margin, trained on points where
 the robot would touch, tell two obstacles apart; where they cannot decide runs the middle between the two.</p>
-</header>
-<section>
-<h2>Between the houses of a town</h2>
-)";
-  html += "<div class=\"wide\">\n" + figure(story.town, "eager") + "</div>\n";
+<h3>Between the houses of a town</h3>
+<div class="wide">
+)" + figure(story.town) +
+                     "</div>\n";
   html += fmt::format(
       "<p>{} samples, training included. A sample is on the axis where its two smallest distances differ by at most 2 "
       "%; those of max-margin fields are checked, others are thrown away.</p>\n",
@@ -147,18 +150,17 @@ the robot would touch, tell two obstacles apart; where they cannot decide runs t
       "<h3>From corner to corner</h3>\n<p>The path with the smallest length over clearance, the same shortened so that "
       "it "
       "keeps nine tenths of its smallest clearance, and the shortest.</p>\n";
-  html += ways_table(story.ways) + R"(</section>
-<section>
-<h2>Robots with a body</h2>
+  html += ways_table(story.ways) + motion_beside();
+  html += R"(<h3>Robots with a body</h3>
 <p>Where robots turn, distances are those of their bodies, and every motion of a path is free all along, by certificate.</p>
-)" + "<div class=\"wide\">\n" +
-          figure(story.window, "lazy") + "</div>\n";
-  return html + fmt::format(
-                    "</section>\n</main>\n<footer>\n<p>Footprints: Kronstadt, © <a "
-                    "href=\"https://www.openstreetmap.org/copyright\">OpenStreetMap contributors</a>, ODbL.</p>\n"
-                    "<p>Computed and drawn by <code>partwise_demo</code> in {:.0f} seconds.</p>\n</footer>\n"
-                    "</body>\n</html>\n",
-                    story.seconds);
+)" + figure(story.window, "window");
+  return html + fmt::format("<p class=\"note\">Computed and drawn in {:.0f} seconds.</p>\n", story.seconds);
+}
+
+std::string motion_credits() {
+  return "<p>Footprints: Kronstadt, © <a href=\"https://www.openstreetmap.org/copyright\">OpenStreetMap "
+         "contributors</a>, "
+         "ODbL.</p>\n";
 }
 
 }  // namespace demo

@@ -1,11 +1,13 @@
-// What the page of motion shows: the medial axis among the houses of a town, a way through it, how long it takes beside
+// What the page shows of motion: the medial axis among the houses of a town, a way through it, how long it takes beside
 // the methods of others, and a stick that is carried through a window.
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "html.h"
+#include "turnable.h"
 
 namespace demo {
 
@@ -21,7 +23,8 @@ struct WayStory {
 
 struct MotionStory {
   int houses = 0, samples = 0;
-  Picture town, window;
+  Picture town;
+  Turnable window;
   std::vector<AxisStory> methods;
   std::vector<WayStory> ways;
   double seconds = 0;
@@ -29,6 +32,7 @@ struct MotionStory {
 
 MotionStory tell_motion();
 
-std::string make_motion_page(const MotionStory& story);
+std::string motion_chapter(const MotionStory& story);
+std::string motion_credits();
 
 }  // namespace demo

@@ -174,4 +174,31 @@ OutlineStory tell_outlines(std::span<const partwise::Mesh* const> herd) {
   return story;
 }
 
+std::string outlines_chapter(const OutlineStory& story) {
+  std::string html = fmt::format(
+      R"(<h2>And in the plane</h2>
+<p>Outlines, silhouettes and floor plans are cut along diagonals between their own corners. No corner of a part is farther than {:.2f} R from the
+bridge over its pocket, R the radius of the smallest circle around the shape. A skeleton runs from part to part through the cuts.</p>
+)",
+      story.tolerance);
+  html += figures(story.clean, "row even") + figures(story.skeletons, "row even gap");
+  html += fmt::format(
+      R"(<h3>Noise changes little</h3>
+<p>On the right, the edge of the same animal has been made ragged and its body speckled. The {} small holes count as noise: they stay holes, but no
+cut is made for them. At 0.10 R the two decompositions agree to a Rand index of {:.2f}.</p>
+)",
+      story.noise_holes, story.rand_index);
+  html += figures(story.noisy, "row even");
+  return html + R"(<h3>A crowd</h3>
+<p>Models from this page on one line, seen from the side: legs and bodies overlap and enclose gaps that matter, specks and ragged edges that do not.</p>
+)" + "<div class=\"wide strip\">\n" +
+         figure(story.herd) + "</div>\n";
+}
+
+std::string outline_credits() {
+  return "<p>The outlines of bird, mammoth, neuron and the shape with three holes are examples of acd2d by Jyh-Ming "
+         "Lien "
+         "(MIT licence).</p>\n";
+}
+
 }  // namespace demo

@@ -3,14 +3,26 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
-#include "page.h"
+#include "html.h"
 #include "partwise/geometry/mesh.h"
 
 namespace demo {
 
+struct OutlineStory {
+  double tolerance = 0;
+  std::vector<Picture> clean, skeletons, noisy;
+  double rand_index = 0;  // of the clean and the noisy decomposition
+  int noise_holes = 0;    // that the noisy one has
+  Picture herd;
+};
+
 // `herd`: the meshes to choose from.
 OutlineStory tell_outlines(std::span<const partwise::Mesh* const> herd);
+
+std::string outlines_chapter(const OutlineStory& story);
+std::string outline_credits();
 
 }  // namespace demo

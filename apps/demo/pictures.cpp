@@ -18,10 +18,6 @@ using partwise::Point;
 using partwise::PreviewMesh;
 using partwise::PreviewScene;
 
-Point middle(const partwise::Vertices& points) {
-  return (points.colwise().minCoeff() + points.colwise().maxCoeff()) / 2;
-}
-
 // Without a deep valley (rims, which run on the hull, do not count) the hull vertices are one ridge.
 std::vector<std::vector<int>> ridges_of(const partwise::PartGraph& part, const partwise::Bridges& bridges) {
   std::vector<std::vector<int>> ridges = partwise::convex_ridges(part, bridges).members;
@@ -58,6 +54,10 @@ Image draw_ridges(const Mesh& mesh, const partwise::Decomposition& parts, double
 }
 
 }  // namespace
+
+Point middle(const partwise::Vertices& points) {
+  return (points.colwise().minCoeff() + points.colwise().maxCoeff()) / 2;
+}
 
 std::vector<PreviewMesh> hull_meshes(const partwise::Decomposition& parts, double apart) {
   const Point centre = middle(parts.mesh.vertices);

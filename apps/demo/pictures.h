@@ -13,6 +13,9 @@ struct ModelPictures {
   int valley_count = 0;  // deep valleys between them
 };
 
+// The middle of the box about them.
+partwise::Point middle(const partwise::Vertices& points);
+
 // The scene from `azimuth` degrees, framed.
 partwise::Image draw(const partwise::PreviewScene& scene, double azimuth,
                      const partwise::PreviewSettings& settings = {});

@@ -1,11 +1,11 @@
-#include "page_surfaces.h"
+#include "surfaces.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "html.h"
+#include "beside.h"
 #include "partwise/appearance/palette.h"
 #include "partwise/imaging/image.h"
 
@@ -29,15 +29,13 @@ std::string scale() {
 }
 
 std::string features_table(const SurfaceStory& model) {
-  std::string html =
-      "<table>\n<thead><tr><th scope=\"col\">feature</th><th scope=\"col\">parts</th><th scope=\"col\">tests</th>"
-      "<th scope=\"col\">time</th></tr></thead>\n<tbody>\n";
+  std::vector<Row> rows;
   for (const FeatureStory& feature : model.features) {
-    html += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{:.2f} <small>s</small></td></tr>\n",
-                        feature.name, feature.part_count, feature.tests > 0 ? thousands(feature.tests) : "&ndash;",
-                        feature.seconds);
+    rows.push_back({feature.name, std::to_string(feature.part_count),
+                    feature.tests > 0 ? thousands(feature.tests) : "&ndash;",
+                    fmt::format("{:.2f} <small>s</small>", feature.seconds)});
   }
-  return html + "</tbody>\n</table>\n";
+  return table({"feature", "parts", "tests", "time"}, rows);
 }
 
 std::string surface_article(const SurfaceStory& model) {
@@ -53,9 +51,8 @@ std::string surface_article(const SurfaceStory& model) {
 
 }  // namespace
 
-std::string surfaces_section(const SurfacesStory& surfaces) {
-  std::string html = R"(<section id="surfaces">
-<h2>Parts as people see them</h2>
+std::string surfaces_chapter(const SurfacesStory& story) {
+  std::string html = R"(<h2>Parts as people see them</h2>
 <p>People cut a horse into head, legs and body, convex or not. A number on every point of the surface, large on large parts and small on small
 ones, says where. Four such numbers, and below each the parts that come from it, with the same two settings for all:</p>
 <ul>
@@ -68,12 +65,12 @@ looks the same.</li>
 <p>A test is one ray that asks whether two vertices see each other. The colours of a picture run from its least value to its most:</p>
 )";
   html += scale();
-  for (const SurfaceStory& model : surfaces.models) html += surface_article(model);
+  for (const SurfaceStory& model : story.models) html += surface_article(model);
   html += R"(<h3>What lies in the middle</h3>
 <p>The same visibility finds the medial axis: for each vertex the ball inside that touches the surface there and once more. The beads are the
 centres of the balls, coloured by radius on the same scale; the nearer half of each model is cut away.</p>
 )";
-  return html + figures(surfaces.medial, "row") + "</section>\n";
+  return html + figures(story.medial, "row") + segments_beside();
 }
 
 }  // namespace demo
