@@ -148,7 +148,9 @@ TEST(NetSheets, AllNetsLieOnTheirPagesApart) {
     EXPECT_LE(box.max().y(), 287 + 1e-6);
     EXPECT_LT(placed.page, sheets.pages);
     for (const auto& [page, other] : boxes)
-      if (page == placed.page) EXPECT_FALSE(box.intersects(other));
+      if (page == placed.page) {
+        EXPECT_FALSE(box.intersects(other));
+      }
     boxes.emplace_back(placed.page, box);
   }
   EXPECT_THROW(lay_out(unfoldings, {.scale = 2 * sheets.scale}), InputError);
