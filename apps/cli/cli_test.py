@@ -418,7 +418,7 @@ class Evaluate(CommandLine):
 
     def test_one_border_moved_by_a_square(self):
         report = self.measured("left.seg", "half.seg")
-        self.assertEqual(list(report), self.fields + ["references", "by_reference", "seconds"])
+        self.assertEqual(list(report), self.fields + ["references", "by_reference", "seconds", "reads"])
         self.assertEqual(report["references"], 1)
         self.assertAlmostEqual(report["rand_error"], 2 * 6 / 28, 12)
         for field in ("hamming", "hamming_missing", "hamming_false"):
@@ -821,7 +821,7 @@ class Segment(CommandLine):
         self.assertRegex(result.stdout, r"^bar\.off: 3 parts by sdf \(2 clusters, smoothness [0-9.]+\)\nwrote a.seg, a.glb\n$")
         self.assert_files("bar.off", "a.seg", "a.glb", "a.json")
         report = json.loads((self.folder / "a.json").read_text())
-        self.assertEqual(list(report), "parts clusters smoothness borders feature faces input files seconds".split())
+        self.assertEqual(list(report), "parts clusters smoothness borders feature faces input files seconds reads".split())
         self.assertEqual((report["parts"], report["clusters"], report["feature"]), (3, 2, "sdf"))
         self.assertEqual(report["faces"], len(self.parts))
         for stage in ("read", "feature", "cluster", "write", "total"):

@@ -84,7 +84,7 @@ class Pipeline(unittest.TestCase):
         self.assertEqual([name for name in ours if ours[name] != theirs[name]], [])
 
     def left_unfinished(self, output):
-        return [path for path in (self.folder / output).rglob("*") if path.suffix in (".unfinished", ".old", ".tmp")]
+        return [path for path in (self.folder / output).rglob("*") if path.suffix in (".unfinished", ".old", ".check", ".tmp")]
 
     def stop_when(self, output, number, pattern, *arguments):
         """Kills the pipeline as soon as there is such a file."""
@@ -147,6 +147,17 @@ class Stages(Pipeline):
         if HAS_LEARNING:
             self.assertTrue({each["file"] for each in jobs["training/editing"]["inputs"]} > {f"images/shard-{i:06}.tar" for i in range(3)})
             self.assertIn("training/editing/best.pt", [each["file"] for each in jobs["photos/ball.png/normals"]["inputs"]])
+
+
+@unittest.skipUnless(HAS_LEARNING, "built without libtorch")
+class Checks(Pipeline):
+    def test_a_training_is_looked_at_before_anything_is_made(self):
+        self.write({"shapes": "shapes", "images": IMAGES, "training": {"editing": {**TRAINING, "stages": [{"steps": 3, "speed": 2}]}}})
+        done = self.run_pipeline("out")
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertEqual(done.stderr, "partwise: c.json: training.editing.stages[0].speed is not a field that is known; see docs/training.md\n")
+        self.assertFalse((self.folder / "out" / "images").exists())
+        self.assertEqual(self.left_unfinished("out"), [])
 
 
 class Example(unittest.TestCase):

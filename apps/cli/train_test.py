@@ -165,6 +165,14 @@ class Train(unittest.TestCase):
             done = run("train", *arguments, cwd=self.folder)
             self.assertEqual(done.returncode, status, (arguments, done.stderr))
 
+    def test_a_configuration_is_checked_alone(self):
+        done = run("train", self.config("sound.json", views=["nowhere"]), "--check", cwd=self.folder)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        done = run("train", self.config("bad.json", stages=[{"steps": 0}]), "--check")
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertIn("stages[0].steps", done.stderr)
+        self.assertFalse((self.folder / "nowhere").exists())
+
     def test_processes_that_cannot_share(self):
         environment = {**os.environ, "RANK": "0", "WORLD_SIZE": "3", "MASTER_ADDR": "127.0.0.1", "MASTER_PORT": "1"}
         done = run("train", self.config(), "-o", self.folder / "three", env=environment)
