@@ -41,6 +41,7 @@ int handle_of(pid_t process) { return static_cast<int>(::syscall(SYS_pidfd_open,
 
 std::vector<char*> pointers_to(std::vector<std::string>& texts) {
   std::vector<char*> pointers;
+  pointers.reserve(texts.size() + 1);
   for (std::string& each : texts) pointers.push_back(each.data());
   pointers.push_back(nullptr);
   return pointers;

@@ -25,9 +25,9 @@ std::string what_went_wrong(const ChildProcess& child, int status) {
   constexpr int by_signal = 128;
   if (status > by_signal) {
     const int signal = status - by_signal;
-    return fmt::format("was ended by signal {}; {}", signal,
-                       signal == SIGKILL ? "if memory is short, run fewer jobs at a time with --threads"
-                                         : "run the pipeline again");
+    return fmt::format(
+        "was ended by signal {}; {}", signal,
+        signal == SIGKILL ? "if memory is short, run fewer jobs at a time with --threads" : "run the pipeline again");
   }
   const std::string line = child.last_line();
   return line.empty() ? fmt::format("ended with {} and said nothing; run it by itself", status) : line;
