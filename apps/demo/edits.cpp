@@ -69,7 +69,7 @@ void tell_car(const WornModel& car, const EditingNetworks& networks, EditsStory&
     strip.push_back(edited(picture.photo, layers, {shipped_material(name).brdf.coefficients()}));
     story.edits.push_back(as_picture(strip.back(), name, fmt::format("The same car in {}", name)));
     const Image truth = taken(whole(car), {name}, "venice", 40).photo.shown;
-    story.truths.push_back(as_picture(truth, "the truth", fmt::format("A car that truly is of {}", name)));
+    story.truths.push_back(as_picture(truth, "truly " + name, fmt::format("A car that truly is of {}", name)));
     story.differences.push_back(
         compare_images(of_display(exposed_anew(strip.back(), picture.photo.regions[0])), of_display(truth)));
   }
@@ -159,6 +159,8 @@ std::string edits_chapter(const EditsStory& story) {
 another material. The pictures here are renderings too, under lights that the networks never saw: so the truth is known and stands beside what was
 found.</p>
 <h3>A car in other materials</h3>
+<p>Above the edits, below the same car truly in these materials. What colour the light has cannot be told from a picture of red plastic: under the blue
+sky of this one the truth is bluer.</p>
 )" + figures(story.edits, "row five") +
          figures(story.truths, "row five gap") + beside(story) +
          R"(<h3>What was found</h3>

@@ -17,7 +17,7 @@ using Clock = std::chrono::steady_clock;
 
 // All nets on one wide sheet, as large as they fit.
 partwise::Sheets one_sheet(const std::vector<partwise::Unfolding>& unfoldings) {
-  partwise::PageSettings sheet{.width = 420, .height = 150, .margin = 5};
+  partwise::PageSettings sheet{.width = 280, .height = 160, .margin = 5};
   partwise::Sheets laid = lay_out(unfoldings, sheet);
   while (laid.pages > 1) {
     sheet.scale = 0.96 * laid.scale;
