@@ -167,7 +167,8 @@ void run(const std::filesystem::path& folder) {
   show("putting materials on");
   const demo::MaterialsStory materials = tell_materials(shelf);
   add("materials", "Materials", materials_chapter(materials));
-  const std::vector<demo::Picture>& car = parts.models[4].pictures;
+  const auto car_row = [](const demo::PartsStory::Row& row) { return row.model->model.name == "Toy car"; };
+  const std::vector<demo::Picture>& car = std::ranges::find_if(parts.models, car_row)->pictures;
   page.story = {
       {"parts", "Shapes", car[0]}, {"parts", "Parts", car[2]}, {"materials", "Appearance", materials.channels[0]}};
 #ifdef PARTWISE_DEMO_LEARNING
