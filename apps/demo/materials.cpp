@@ -94,7 +94,7 @@ void tell_channels(WornModel car, MaterialsStory& story) {
 }
 
 std::vector<Picture> tell_samples(std::span<const WornModel> models) {
-  constexpr int count = 24, most_parts = 4;
+  constexpr int count = 60, most_parts = 4;
   const std::vector<std::string> names = shipped_materials(), lights = shipped_lights();
   std::vector<WornModel> worn(models.begin(), models.end());
   std::vector<int> parts;
