@@ -176,7 +176,7 @@ class Page(unittest.TestCase):
         self.assertEqual(seen["heads"], len(seen["sections"]))
         images = seen["images"]
         # two models to turn and twelve rows; four features of four models, maps and parts, and the medial axis
-        self.assertEqual((images["parts"], images["surfaces"], images["materials"]), (2 + 4 * 12, 4 * 8 + 4, 100 + 6 + 5 + 5 + 24))
+        self.assertEqual((images["parts"], images["surfaces"], images["materials"]), (2 + 4 * 12, 4 * 8 + 4, 100 + 6 + 5 + 5 + 60))
         self.assertEqual((images["outlines"], images["heap"], images["motion"]), (11, 4, 2))
         self.assertEqual((images["cage"], images["repair"], images["nets"]), (5, 4, 4))
         if "edits" in images:  # built with libtorch; edits, what was found, swaps, parts; four a photo
