@@ -3,7 +3,7 @@
 //
 // Exit 0: done, and every output that was asked for is there. 1: cannot be done. 2: wrong usage. 130, 143: stopped by
 // Ctrl-C or a termination signal. Unless the exit is 0 nothing was written and standard error has one line that says
-// why.
+// why; only `pipeline` keeps what is done, and has a line for each job that failed.
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>

@@ -24,18 +24,6 @@ Eigen::Vector3f normal_at(const Image& normals, std::size_t pixel) {
   return Eigen::Map<const Eigen::Vector3f>(&normals.values[3 * pixel]);
 }
 
-// colour(pixel) where the mask is.
-template <typename Colour>
-Image masked(const Image& mask, const Colour& colour) {
-  Image image(mask.width, mask.height, 4);
-  for (std::size_t i = 0; i < mask.values.size(); ++i) {
-    const Eigen::Vector3f value = colour(i);
-    std::copy_n(value.data(), 3, &image.values[4 * i]);
-    image.values[4 * i + 3] = mask.values[i];
-  }
-  return image;
-}
-
 void tell_model(const Taken& picture, const std::string& name, const Image& found, NormalsStory& story) {
   const Image mask = picture.seen.mask_image(), truth = picture.seen.normal_image();
   const auto angle = [&](std::size_t i) {

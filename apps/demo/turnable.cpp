@@ -7,26 +7,17 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
-#include <sstream>
 #include <vector>
 
 #include "page_assets.h"
 #include "partwise/appearance/camera.h"
 #include "partwise/base/read_bytes.h"
-#include "partwise/geometry/mesh_formats.h"
+#include "partwise/geometry/mesh_io.h"
 
 namespace demo {
 namespace {
 
 using partwise::Point;
-
-std::string glb_of(std::span<const partwise::NamedMesh> meshes) {
-  std::vector<partwise::NamedMeshView> views;
-  for (const partwise::NamedMesh& each : meshes) views.push_back({each.name, &each.mesh, each.colour});
-  std::ostringstream out;
-  write_glb(out, views);
-  return std::move(out).str();
-}
 
 // The upright cylinder about them, as two rings of points.
 partwise::Vertices cylinder_of(std::span<const partwise::Vertices* const> shapes, const Eigen::AlignedBox3d& box) {
@@ -71,7 +62,7 @@ Turnable make_turnable(const partwise::PreviewScene& still, std::span<const part
   const Point about = camera.position - back * (camera.position - Point(box.center().transpose())).dot(back);
   const partwise::Image picture = render_preview(still, camera, {.width = turning.width, .height = turning.height});
   return {make_picture(picture, std::move(caption), std::move(description)),
-          glb_of(meshes),
+          encode_glb(meshes),
           fmt::format("{:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g}", camera.position.x(), camera.position.y(),
                       camera.position.z(), about.x(), about.y(), about.z()),
           turning.slider,

@@ -13,17 +13,9 @@ namespace {
 
 using namespace partwise;
 
-// colour(pixel) with the alpha of the mask.
 template <typename Colour>
 Image channel_image(const GBuffer& seen, const Colour& colour) {
-  const Image mask = seen.mask_image();
-  Image image(mask.width, mask.height, 4);
-  for (std::size_t i = 0; i < mask.values.size(); ++i) {
-    const Eigen::Vector3f value = colour(i);
-    std::copy_n(value.data(), 3, &image.values[4 * i]);
-    image.values[4 * i + 3] = mask.values[i];
-  }
-  return image;
+  return masked(seen.mask_image(), colour);
 }
 
 }  // namespace

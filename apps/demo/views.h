@@ -2,6 +2,8 @@
 // make_picture (html.h) is linear, which loses what is a code already.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -31,6 +33,18 @@ partwise::Image worn_image(const partwise::GBuffer& seen, const std::vector<part
 // The same on clear ground, exposed for a grey card.
 partwise::Image worn_picture(const partwise::GBuffer& seen, const std::vector<partwise::Dsbrdf>& materials,
                              const partwise::EnvironmentLight& light, bool fine);
+
+// colour(pixel) with the alpha of the mask.
+template <typename Colour>
+partwise::Image masked(const partwise::Image& mask, const Colour& colour) {
+  partwise::Image image(mask.width, mask.height, 4);
+  for (std::size_t i = 0; i < mask.values.size(); ++i) {
+    const Eigen::Vector3f value = colour(i);
+    std::copy_n(value.data(), 3, &image.values[4 * i]);
+    image.values[4 * i + 3] = mask.values[i];
+  }
+  return image;
+}
 
 partwise::Image from_codes(partwise::Image codes);
 partwise::Image for_the_eye(const partwise::Image& linear, float exposure);

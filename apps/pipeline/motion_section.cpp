@@ -4,7 +4,8 @@
 
 #include "partwise/geometry/mesh_io.h"
 #include "partwise/motion/planning_problem.h"
-#include "partwise/motion/problem_formats.h"
+#include "partwise/motion/problem_fields.h"
+#include "partwise/motion/world.h"
 #include "pipeline/stages.h"
 
 namespace partwise::pipeline {
@@ -14,7 +15,6 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 constexpr const char* problem_file = "problem.json";
-constexpr double usual_tolerance = 0.05;
 
 // What roadmaps and paths of a scene have in common.
 class MotionPlanner {
@@ -45,7 +45,7 @@ class MotionPlanner {
   void plan_scene() {
     const fs::path scene = take_file(fields_, "scene", places_.folder);
     name_ = fields_.has("name") ? fields_.text("name") : scene.filename().string();
-    const bool is_city = equals(scene, ".geojson");
+    const bool is_city = scene.extension() == ".geojson";
     if (limit_ > 0 && !is_city)
       fields_.refuse("limit", "keeps footprints of a city, which this is not", "leave it out");
     bool flat = is_city;
@@ -90,7 +90,7 @@ class MotionPlanner {
 
   Job parts(const NamedFile& mesh) const {
     Job job{.stage = "parts", .name = folder("parts") + "/" + mesh.name};
-    const std::string tolerance = fmt::format("{}", tolerance_ > 0 ? tolerance_ : usual_tolerance);
+    const std::string tolerance = fmt::format("{}", tolerance_ > 0 ? tolerance_ : ProblemWorldSettings{}.tolerance);
     job.words = {plain("decompose"),   input(mesh.file), plain("--tolerance"), plain(tolerance), plain("--labels"),
                  output("labels.seg"), plain("--hulls"), output("hulls.obj"),  plain("--glb"),   output("parts.glb")};
     job.inputs = {mesh.file};
@@ -138,7 +138,6 @@ class MotionPlanner {
     job.words.push_back(output(file));
     job.outputs.push_back(file);
   }
-  static bool equals(const fs::path& file, const char* ending) { return file.extension() == ending; }
 
   const Places& places_;
   JsonFields fields_;

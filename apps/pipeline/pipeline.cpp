@@ -73,10 +73,11 @@ PipelineReport run_pipeline(const Plan& plan, const PipelineSettings& settings,
   FileHashes hashes(plan.output / ".hashes");
   const Workplace place{plan.output, settings.program, settings.version};
   JobEvents events;
-  events.begins = [&](const Job&) {  // from here on the old one is not true any more
+  const auto remove_manifest = [&] {
     std::error_code none;
     fs::remove(plan.output / manifest_name, none);
   };
+  events.begins = [&](const Job&) { remove_manifest(); };  // from here on the old one is not true any more
   events.fails = [&](const Job& job, const std::string& message) { say(job.name + ": " + message); };
   std::vector<JobResult> results;
   try {
@@ -95,7 +96,7 @@ PipelineReport run_pipeline(const Plan& plan, const PipelineSettings& settings,
   if (report.whole) {
     write_manifest(plan, settings.version, results);
   } else {
-    events.begins({});
+    remove_manifest();
   }
   return report;
 }

@@ -7,7 +7,6 @@
 #include <set>
 
 #include "partwise/base/error.h"
-#include "partwise/base/read_bytes.h"
 #include "partwise/geometry/mesh_io.h"
 #include "pipeline/stages.h"
 
@@ -49,7 +48,7 @@ void expect_names_apart(const std::vector<Job>& jobs, const fs::path& config) {
 class Planner {
  public:
   Planner(const fs::path& config, const fs::path& output, int seed)
-      : whole_(read(config)),
+      : whole_(read_json(config)),
         fields_(config.string(), "", whole_, page),
         places_(places_of(config, output, seed, fields_)) {}
 
@@ -81,12 +80,6 @@ class Planner {
   }
 
  private:
-  static json read(const fs::path& config) {
-    json whole = json::parse(read_bytes(config), nullptr, false);
-    if (whole.is_discarded()) throw InputError(config.string(), "is not JSON", "check brackets, quotes and commas");
-    return whole;
-  }
-
   void add(const std::vector<Job>& jobs) {
     for (const Job& job : jobs) {
       if (std::ranges::find(plan_.stages, job.stage) == plan_.stages.end()) plan_.stages.push_back(job.stage);

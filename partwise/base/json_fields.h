@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <filesystem>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -10,8 +11,16 @@
 #include <vector>
 
 #include "partwise/base/error.h"
+#include "partwise/base/read_bytes.h"
 
 namespace partwise {
+
+// The whole of a file. Errors: InputError when it cannot be read or is not JSON.
+inline nlohmann::json read_json(const std::filesystem::path& path) {
+  nlohmann::json whole = nlohmann::json::parse(read_bytes(path), nullptr, false);
+  if (whole.is_discarded()) throw InputError(path.string(), "is not JSON", "check brackets, quotes and commas");
+  return whole;
+}
 
 class JsonFields {
  public:

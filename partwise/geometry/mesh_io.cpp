@@ -3,6 +3,7 @@
 #include <limits>
 #include <new>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 
 #include "partwise/base/atomic_file.h"
@@ -75,6 +76,20 @@ void check_indices(const Mesh& mesh) {
   PARTWISE_CHECK(mesh.faces.maxCoeff(), <, mesh.vertices.rows());
 }
 
+void check_writable(const std::string& file, std::span<const NamedMeshView> meshes, bool single_precision) {
+  for (const NamedMeshView& each : meshes) {
+    check_indices(*each.mesh);
+    if (!each.mesh->vertices.allFinite()) {
+      throw InputError(file, "the mesh holds coordinates that are not finite", "correct or remove them");
+    }
+    if (single_precision && each.mesh->vertices.size() > 0 &&
+        each.mesh->vertices.cwiseAbs().maxCoeff() > std::numeric_limits<float>::max()) {
+      throw InputError(file, "coordinates are too large for the single precision of this format",
+                       "use .off, .obj or .ply");
+    }
+  }
+}
+
 void write(const std::filesystem::path& path, std::span<const NamedMeshView> meshes) {
   const Format format = format_of(path);
   if (format == Format::gltf) {
@@ -83,18 +98,7 @@ void write(const std::filesystem::path& path, std::span<const NamedMeshView> mes
   if (format == Format::byu) {
     throw InputError(path.string(), "BYU is read only", "use .off, .obj, .ply, .stl or .glb");
   }
-  const bool single_precision = format == Format::stl || format == Format::glb;
-  for (const NamedMeshView& each : meshes) {
-    check_indices(*each.mesh);
-    if (!each.mesh->vertices.allFinite()) {
-      throw InputError(path.string(), "the mesh holds coordinates that are not finite", "correct or remove them");
-    }
-    if (single_precision && each.mesh->vertices.size() > 0 &&
-        each.mesh->vertices.cwiseAbs().maxCoeff() > std::numeric_limits<float>::max()) {
-      throw InputError(path.string(), "coordinates are too large for the single precision of this format",
-                       "use .off, .obj or .ply");
-    }
-  }
+  check_writable(path.string(), meshes, format == Format::stl || format == Format::glb);
   AtomicFile file(path);
   switch (format) {
     case Format::off:
@@ -116,6 +120,12 @@ void write(const std::filesystem::path& path, std::span<const NamedMeshView> mes
       break;
   }
   file.commit();
+}
+
+std::vector<NamedMeshView> views_of(std::span<const NamedMesh> meshes) {
+  std::vector<NamedMeshView> views;
+  for (const NamedMesh& each : meshes) views.push_back({each.name, &each.mesh, each.colour});
+  return views;
 }
 
 // Counts that no memory holds are the file's fault, not ours.
@@ -149,9 +159,15 @@ void write_mesh(const std::filesystem::path& path, const Mesh& mesh) {
 }
 
 void write_meshes(const std::filesystem::path& path, std::span<const NamedMesh> meshes) {
-  std::vector<NamedMeshView> views;
-  for (const NamedMesh& each : meshes) views.push_back({each.name, &each.mesh, each.colour});
-  write(path, views);
+  write(path, views_of(meshes));
+}
+
+std::string encode_glb(std::span<const NamedMesh> meshes) {
+  const std::vector<NamedMeshView> views = views_of(meshes);
+  check_writable("GLB", views, true);
+  std::ostringstream out;
+  write_glb(out, views);
+  return std::move(out).str();
 }
 
 }  // namespace partwise

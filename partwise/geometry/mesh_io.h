@@ -64,6 +64,9 @@ struct NamedMesh {
 // and get all as one. Vertices are not shared. Atomic.
 void write_meshes(const std::filesystem::path& path, std::span<const NamedMesh> meshes);
 
+// The bytes that it writes into a GLB, with the same errors about what is in the meshes.
+std::string encode_glb(std::span<const NamedMesh> meshes);
+
 // Princeton's .seg: one line a face, its label.
 std::vector<int> read_labels(const std::filesystem::path& path);
 void write_labels(const std::filesystem::path& path, std::span<const int> labels);

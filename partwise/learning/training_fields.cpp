@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "partwise/base/read_bytes.h"
 
 namespace partwise {
 namespace {
@@ -12,8 +11,7 @@ constexpr int most_steps = 2000000000;
 }  // namespace
 
 nlohmann::json read_training_file(const std::filesystem::path& path, std::uint64_t seed) {
-  nlohmann::json whole = nlohmann::json::parse(read_bytes(path), nullptr, false);
-  if (whole.is_discarded()) throw InputError(path.string(), "is not JSON", "check brackets, quotes and commas");
+  nlohmann::json whole = read_json(path);
   if (seed != 0 && whole.is_object()) whole["seed"] = seed;
   return whole;
 }

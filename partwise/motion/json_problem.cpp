@@ -6,10 +6,10 @@
 
 #include "partwise/base/error.h"
 #include "partwise/base/json_fields.h"
-#include "partwise/base/read_bytes.h"
 #include "partwise/geometry/extrude.h"
 #include "partwise/geometry/polygon_io.h"
 #include "partwise/motion/city.h"
+#include "partwise/motion/problem_fields.h"
 #include "partwise/motion/problem_formats.h"
 
 namespace partwise {
@@ -233,9 +233,7 @@ class ProblemReader {
 }  // namespace
 
 PlanningProblem read_json_problem(const std::filesystem::path& path) {
-  const json whole = json::parse(read_bytes(path), nullptr, false);
-  if (whole.is_discarded()) throw InputError(path.string(), "is not JSON", "check brackets, quotes and commas");
-  return json_problem_at(whole, path, "", path.parent_path());
+  return json_problem_at(read_json(path), path, "", path.parent_path());
 }
 
 PlanningProblem json_problem_at(const json& object, const std::filesystem::path& file, const std::string& place,

@@ -1,7 +1,6 @@
 // One reader a format of problem files behind planning_problem.h, and what they share.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 
@@ -12,10 +11,6 @@ namespace partwise {
 PlanningProblem read_cfg_problem(const std::filesystem::path& path);
 PlanningProblem read_env_problem(const std::filesystem::path& path, const ProblemFiles& files);
 PlanningProblem read_json_problem(const std::filesystem::path& path);
-
-// The same of an object at `place` of a file, which names files relative to `folder`.
-PlanningProblem json_problem_at(const nlohmann::json& object, const std::filesystem::path& file,
-                                const std::string& place, const std::filesystem::path& folder);
 
 // Without the blanks at both ends.
 std::string_view trimmed(std::string_view text);

@@ -9,7 +9,6 @@
 #include "partwise/appearance/shapes/shape_fields.h"
 #include "partwise/base/error.h"
 #include "partwise/base/json_fields.h"
-#include "partwise/base/read_bytes.h"
 #include "partwise/geometry/mesh_io.h"
 #include "partwise/geometry/topology.h"
 
@@ -24,9 +23,7 @@ class SceneReader {
       : path_(std::move(path)), folder_(std::move(folder)) {}
 
   SceneFile read() {
-    const std::string bytes = read_bytes(path_);
-    const json whole = json::parse(bytes, nullptr, false);
-    if (whole.is_discarded()) throw InputError(path_.string(), "is not JSON", "check brackets, quotes and commas");
+    const json whole = read_json(path_);
     JsonFields fields = object("", whole);
     const json& meshes = fields.need("meshes");
     if (!meshes.is_array() || meshes.empty()) fields.refuse("meshes", "is no list of meshes", "write [{ ... }]");

@@ -14,7 +14,6 @@
 #include "partwise/appearance/synthesis/file_patterns.h"
 #include "partwise/base/error.h"
 #include "partwise/base/json_fields.h"
-#include "partwise/base/read_bytes.h"
 
 namespace partwise {
 namespace {
@@ -206,9 +205,7 @@ class ConfigReader {
 }  // namespace
 
 DatasetConfig read_dataset_config(const std::filesystem::path& path) {
-  const json whole = json::parse(read_bytes(path), nullptr, false);
-  if (whole.is_discarded()) throw InputError(path.string(), "is not JSON", "check brackets, quotes and commas");
-  return dataset_config_at(whole, path, "", path.parent_path());
+  return dataset_config_at(read_json(path), path, "", path.parent_path());
 }
 
 DatasetConfig dataset_config_at(const json& object, const std::filesystem::path& file, const std::string& place,

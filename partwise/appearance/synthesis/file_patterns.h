@@ -1,4 +1,4 @@
-// Files by patterns as shells have them: * ? [abc]. Internal to this room.
+// Files by patterns as shells have them: * ? [abc]. Internal to the project.
 #pragma once
 
 #include <filesystem>

@@ -10,7 +10,6 @@
 
 #include "partwise/base/error.h"
 #include "partwise/base/json_fields.h"
-#include "partwise/base/read_bytes.h"
 
 namespace partwise {
 namespace {
@@ -103,8 +102,7 @@ void apply(JsonFields& fields, const Vertices& rest, Vertices& vertices) {
 
 Vertices read_cage_moves(const std::filesystem::path& path, const Mesh& cage) {
   const std::string page = "docs/cage.md";
-  const json whole = json::parse(read_bytes(path), nullptr, false);
-  if (whole.is_discarded()) throw InputError(path.string(), "is not JSON", "check brackets, quotes and commas");
+  const json whole = read_json(path);
   JsonFields fields(path.string(), "", whole, page);
   const json& handles = fields.need("handles");
   if (!handles.is_array()) fields.refuse("handles", "is no list", "write [ { ... } ]");
