@@ -11,8 +11,8 @@ def resident():
 
 
 def expect_nothing_left(call, times=1000):
-    """Of so many calls, after a tenth that may fill what is kept once."""
-    for _ in range(times // 10):
+    """Of so many calls, after a hundred that may fill what is kept once."""
+    for _ in range(100):
         call()
     before = resident()
     for _ in range(times):
