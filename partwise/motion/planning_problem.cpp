@@ -74,7 +74,7 @@ Configuration configuration_of(SpaceKind kind, std::span<const double> numbers, 
     throw InputError(place, fmt::format("is not a list of {} numbers", count), "give that many finite ones");
   }
   if (kind == SpaceKind::se2) return planar_configuration_at(numbers[0], numbers[1], numbers[2]);
-  const Configuration q = Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(count));
+  Configuration q = Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(count));
   if (kind != SpaceKind::se3) return q;
   const Eigen::Quaterniond rotation(q[3], q[4], q[5], q[6]);
   if (std::abs(rotation.norm() - 1) > 1e-3) {
