@@ -14,11 +14,8 @@
 #include "named_places.h"
 #include "options.h"
 #include "partwise/base/atomic_file.h"
-#include "partwise/motion/axis_planner.h"
-#include "partwise/motion/maprm.h"
-#include "partwise/motion/margin_push.h"
+#include "partwise/motion/axis_path.h"
 #include "partwise/motion/path_simplify.h"
-#include "partwise/motion/umaprm.h"
 #include "plan_ompl.h"
 #include "verbs.h"
 
@@ -41,50 +38,27 @@ struct Options {
   ProblemWorldSettings world;
 };
 
-// Until the time is over.
-Progress limited(const Progress& progress, double seconds) {
-  const auto start = std::chrono::steady_clock::now();
-  return {progress.report, [&progress, start, seconds] {
-            const std::chrono::duration<double> past = std::chrono::steady_clock::now() - start;
-            return past.count() > seconds || (progress.cancelled && progress.cancelled());
-          }};
-}
-
 struct Found {
   std::optional<MotionPath> path;  // of the first run that found one
   double seconds = 0;              // in the mean of those
   int solved = 0;
 };
 
-std::unique_ptr<Retractor> retractor(const ProblemScene& problem, const Options& options, std::uint64_t seed,
-                                     const Progress& progress) {
-  if (options.planner.planner == "maprm") return std::make_unique<Maprm>(*problem.scene);
-  if (options.planner.planner == "umaprm") return std::make_unique<Umaprm>(*problem.scene);
-  const MarginFieldSettings field{.seed = seed};
-  return trained_push(*problem.scene, problem.contacts(progress), field, {}, progress);
+AxisMethod method_named(const std::string& planner) {
+  if (planner == "maprm") return AxisMethod::maprm;
+  return planner == "umaprm" ? AxisMethod::umaprm : AxisMethod::svma;
 }
 
 std::optional<MotionPath> along_the_axis(const ProblemScene& problem, const MotionQuery& query, const Options& options,
                                          Run& run) {
-  const Progress progress = limited(run.progress, options.time);
-  try {
-    const std::unique_ptr<Retractor> retract =
-        run.stage("train", [&] { return retractor(problem, options, run.seed, progress); });
-    AxisPlannerSettings settings;
-    settings.only_on_axis = options.planner.planner != "maprm";
-    settings.connecting.push = options.planner.planner == "svma";  // the peers join samples straight, as published
-    settings.seed = run.seed;
-    AxisPlanner planner(*problem.scene, *retract, settings);
-    planner.add_start(query.start);
-    planner.add_goal(query.goal);
-    MotionPath path = run.stage("search", [&] { return planner.solve(progress); });
-    run.report["samples"] = planner.roadmap().samples().size();
-    run.report["edges"] = planner.roadmap().roadmap().edges.size();
-    return path;
-  } catch (const Cancelled&) {
-    if (run.progress.cancelled && run.progress.cancelled()) throw;
-    return std::nullopt;
-  }
+  const AxisPathSettings settings{
+      .method = method_named(options.planner.planner), .seconds = options.time, .seed = run.seed};
+  std::optional<AxisPath> found = axis_path(problem, query, settings, run.progress);
+  if (!found) return std::nullopt;
+  for (const auto& [stage, seconds] : found->seconds) run.seconds[stage] = seconds;
+  run.report["samples"] = found->samples;
+  run.report["edges"] = found->edges;
+  return std::move(found->path);
 }
 
 Found find(const ProblemScene& problem, const MotionQuery& query, const Options& options, Run& run) {

@@ -48,9 +48,6 @@ ConfigurationSpace::ConfigurationSpace(SpaceKind kind, const Eigen::AlignedBox3d
   if (rotates()) PARTWISE_CHECK(rotation_scale, >, 0);
 }
 
-int ConfigurationSpace::coordinates() const {
-  return positions() + (kind_ == SpaceKind::se2 ? 1 : kind_ == SpaceKind::se3 ? 4 : 0);
-}
 int ConfigurationSpace::degrees_of_freedom() const {
   return positions() + (kind_ == SpaceKind::se2 ? 1 : kind_ == SpaceKind::se3 ? 3 : 0);
 }

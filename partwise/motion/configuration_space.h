@@ -26,6 +26,9 @@ enum class SpaceKind { plane, space, se2, se3 };
 
 inline bool is_planar(SpaceKind kind) { return kind == SpaceKind::plane || kind == SpaceKind::se2; }
 inline int position_axes(SpaceKind kind) { return is_planar(kind) ? 2 : 3; }
+inline int coordinate_count(SpaceKind kind) {
+  return position_axes(kind) + (kind == SpaceKind::se2 ? 1 : kind == SpaceKind::se3 ? 4 : 0);
+}
 
 // Room for the largest embedding, so that none of this allocates.
 using MotionVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 12, 1>;
@@ -46,7 +49,7 @@ class ConfigurationSpace {
   const Eigen::AlignedBox3d& bounds() const { return bounds_; }
   double rotation_scale() const { return scale_; }
   bool rotates() const { return kind_ == SpaceKind::se2 || kind_ == SpaceKind::se3; }
-  int coordinates() const;
+  int coordinates() const { return coordinate_count(kind_); }
   int degrees_of_freedom() const;
   int embedding() const;
 

@@ -18,8 +18,6 @@ namespace {
 using Eigen::Vector3d;
 using nlohmann::json;
 
-constexpr double margin = 0.05;  // of the diagonal, around obstacles where no bounds are given
-
 class ProblemReader {
  public:
   // Of the object at `place` of a file, which names files relative to `folder`.
@@ -164,10 +162,7 @@ class ProblemReader {
     const json* given = fields.find("bounds");
     const std::string place = at(within("bounds"));
     if (given == nullptr) {
-      const Eigen::AlignedBox3d box = obstacle_box(problem_);
-      Vector3d wider = Vector3d::Constant(margin * box.diagonal().norm());
-      if (planar()) wider.z() = 0;
-      problem_.bounds = Eigen::AlignedBox3d(box.min() - wider, box.max() + wider);
+      problem_.bounds = usual_bounds(problem_);
       expect_room(problem_, place);
       return;
     }
@@ -199,15 +194,9 @@ class ProblemReader {
       const Eigen::Isometry3d there = pose(fields.place_of(name), value);
       return configuration_at(problem_.kind, there.translation(), Eigen::Quaterniond(there.linear()));
     }
-    const std::size_t count = problem_.kind == SpaceKind::plane ? 2 : problem_.kind == SpaceKind::se3 ? 7 : 3;
+    const auto count = static_cast<std::size_t>(coordinate_count(problem_.kind));
     const Eigen::VectorXd q = numbers(fields, name, value, count);
-    if (problem_.kind == SpaceKind::se2) return planar_configuration_at(q[0], q[1], q[2]);
-    if (problem_.kind != SpaceKind::se3) return q;
-    const Eigen::Quaterniond rotation(q[3], q[4], q[5], q[6]);
-    if (std::abs(rotation.norm() - 1) > 1e-3) {
-      fields.refuse(name, fmt::format("has a quaternion of length {}", rotation.norm()), "give it length 1 (w x y z)");
-    }
-    return configuration_at(problem_.kind, q.head(3), rotation);
+    return configuration_of(problem_.kind, {q.data(), count}, at(fields.place_of(name)));
   }
 
   void read_queries(const JsonFields& fields, const json& queries) {

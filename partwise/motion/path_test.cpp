@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "partwise/base/draw.h"
+#include "partwise/motion/axis_path.h"
 #include "partwise/motion/axis_planner.h"
 #include "partwise/motion/maprm.h"
 #include "partwise/motion/margin_push.h"
@@ -23,13 +24,15 @@ Configuration at(double x, double y) { return Configuration{{x, y}}; }
 const Eigen::AlignedBox2d wide(Eigen::Vector2d(-10, -10), Eigen::Vector2d(10, 10));
 
 // Two halves of a wall across the bounds, with a passage one wide at x = 2, and a block beyond.
-World wall_world() {
+PlanningProblem wall_problem() {
   PlanningProblem problem;
   problem.kind = SpaceKind::plane;
   problem.footprints = {rectangle(-10, -1, 1.5, 1), rectangle(2.5, -1, 10, 1), rectangle(-4, 5, 4, 6)};
   problem.bounds = {Eigen::Vector3d(-10, -10, 0), Eigen::Vector3d(10, 10, 0)};
-  return problem_world(problem);
+  return problem;
 }
+
+World wall_world() { return problem_world(wall_problem()); }
 
 TEST(MotionPath, LengthAndPlaceOfACorner) {
   const ConfigurationSpace plane(SpaceKind::plane, {Eigen::Vector3d(-10, -10, 0), Eigen::Vector3d(10, 10, 0)});
@@ -184,6 +187,24 @@ TEST(AxisPlanner, GoesOnAfterAStopAndFindsStraightWays) {
   }
   const MotionPath path = stopped.solve({});
   EXPECT_GT(path_clearance(*world.scene, path).minimum, 0);
+}
+
+TEST(AxisPath, IsThePlannersAndEndsWithItsTime) {
+  const ProblemScene problem = problem_scene(wall_problem());
+  const MotionQuery query{at(-5, -5), at(-3, 9)};
+  for (const AxisMethod method : {AxisMethod::svma, AxisMethod::maprm, AxisMethod::umaprm}) {
+    const std::optional<AxisPath> found = axis_path(problem, query, {.method = method, .seed = 3});
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->path.configurations.front(), query.start);
+    EXPECT_EQ(found->path.configurations.back(), query.goal);
+    EXPECT_GT(path_clearance(*problem.scene, found->path).minimum, 0);
+    EXPECT_GT(found->samples, 2);
+    EXPECT_GT(found->edges, 1);
+    const std::optional<AxisPath> again = axis_path(problem, query, {.method = method, .seed = 3});
+    EXPECT_EQ(again->path.configurations, found->path.configurations);
+    EXPECT_FALSE(axis_path(problem, query, {.method = method, .seconds = 1e-9}));
+    EXPECT_THROW(axis_path(problem, query, {.method = method}, {{}, [] { return true; }}), Cancelled);
+  }
 }
 
 // Two walls: the axis is a line, samples of which are spread evenly.

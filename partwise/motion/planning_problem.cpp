@@ -60,6 +60,48 @@ bool within_bounds(const PlanningProblem& problem, const Configuration& q) {
   });
 }
 
+Eigen::AlignedBox3d usual_bounds(const PlanningProblem& problem) {
+  constexpr double margin = 0.05;  // of the diagonal
+  const Eigen::AlignedBox3d box = obstacle_box(problem);
+  Eigen::Vector3d wider = Eigen::Vector3d::Constant(margin * box.diagonal().norm());
+  if (is_planar(problem.kind)) wider.z() = 0;
+  return {box.min() - wider, box.max() + wider};
+}
+
+Configuration configuration_of(SpaceKind kind, std::span<const double> numbers, const std::string& place) {
+  const auto count = static_cast<std::size_t>(coordinate_count(kind));
+  if (numbers.size() != count || !std::ranges::all_of(numbers, [](double each) { return std::isfinite(each); })) {
+    throw InputError(place, fmt::format("is not a list of {} numbers", count), "give that many finite ones");
+  }
+  if (kind == SpaceKind::se2) return planar_configuration_at(numbers[0], numbers[1], numbers[2]);
+  Configuration q = Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(count));
+  if (kind != SpaceKind::se3) return q;
+  const Eigen::Quaterniond rotation(q[3], q[4], q[5], q[6]);
+  if (std::abs(rotation.norm() - 1) > 1e-3) {
+    throw InputError(place, fmt::format("has a quaternion of length {}", rotation.norm()),
+                     "give it length 1 (w x y z)");
+  }
+  return configuration_at(kind, q.head(3), rotation);
+}
+
+void check_problem(const PlanningProblem& problem) {
+  const bool is_point = problem.robot.empty();
+  const bool turns = problem.kind == SpaceKind::se2 || problem.kind == SpaceKind::se3;
+  if (is_point && turns)
+    throw InputError("robot", "is missing, but the space has rotations", "give a robot, or take plane or space");
+  expect_obstacles(problem, "obstacles");
+  if (!problem.footprints.empty() && !(is_point && problem.kind == SpaceKind::plane))
+    throw InputError("obstacles", "are footprints, which are for a point in the plane", "give prisms of them");
+  if (!problem.obstacles.empty() && is_point && problem.kind == SpaceKind::plane)
+    throw InputError("obstacles", "are meshes, for a point in the plane", "give footprints, or a robot");
+  expect_room(problem, "bounds");
+  for (std::size_t i = 0; i < problem.queries.size(); ++i) {
+    const std::string place = fmt::format("queries[{}]", i);
+    expect_within_bounds(problem, problem.queries[i].start, place + ".start", "the start");
+    expect_within_bounds(problem, problem.queries[i].goal, place + ".goal", "the goal");
+  }
+}
+
 std::string_view trimmed(std::string_view text) {
   constexpr const char* blanks = " \t\r\n\v\f";
   const std::size_t first = text.find_first_not_of(blanks);

@@ -18,6 +18,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -57,5 +58,19 @@ double depth_within(const Eigen::AlignedBox3d& bounds, const std::optional<Spher
 // Whether the robot's origin, or all of its vertices where the bounds hold the body, lies within box and sphere, but
 // for rounding (1e-9 of the box's diagonal).
 bool within_bounds(const PlanningProblem& problem, const Configuration& q);
+
+// For problems that a program puts together.
+
+// Bounds for where none are asked for: the box of the obstacles, wider by 5 % of its diagonal on each side.
+Eigen::AlignedBox3d usual_bounds(const PlanningProblem& problem);
+
+// `numbers` are the coordinates of the space, an angle of any size, a quaternion within 1e-3 of unit length. Errors:
+// InputError at `place` for another count, numbers that are not finite, or another length.
+Configuration configuration_of(SpaceKind kind, std::span<const double> numbers, const std::string& place);
+
+// Throws InputError at "robot", "obstacles", "bounds" or "queries[0].start", say, for what no file may ask for either:
+// a robot without a body that turns, or that goes among meshes in the plane; footprints for another robot than a point
+// in the plane; no obstacles; bounds without room; starts and goals outside of them.
+void check_problem(const PlanningProblem& problem);
 
 }  // namespace partwise

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "partwise/base/error.h"
 #include "partwise/base/test_folder.h"
@@ -273,6 +274,54 @@ TEST_F(PlanningProblemFiles, JsonKeepsPolygonsForAPointInThePlane) {
   // The distance of the prisms is that of the polygons: they cover each other's height.
   expect_near(low(body.obstacles[0]), Vector3d(0, 0, -0.5));
   expect_near(low(body.robot[0]), Vector3d(0, 0, -0.5));
+}
+
+std::string refusal(const PlanningProblem& problem) {
+  try {
+    check_problem(problem);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(PlanningProblem, PutTogetherByAProgramIsChecked) {
+  PlanningProblem point;
+  point.kind = SpaceKind::plane;
+  EXPECT_THAT(refusal(point), HasSubstr("obstacles: the world holds no obstacle"));
+  point.footprints = {rectangle(0, 0, 3, 4)};
+  EXPECT_THAT(refusal(point), HasSubstr("bounds: "));
+  point.bounds = usual_bounds(point);
+  expect_near(point.bounds.min(), Vector3d(-0.25, -0.25, 0));
+  expect_near(point.bounds.max(), Vector3d(3.25, 4.25, 0));
+  point.queries = {{Configuration{{-0.2, 0}}, Configuration{{3.2, 4.3}}}};
+  EXPECT_THAT(refusal(point), HasSubstr("queries[0].goal: the goal at 3.2, 4.3 lies outside the bounds"));
+  point.queries.clear();
+  EXPECT_EQ(refusal(point), "");
+
+  PlanningProblem body = point;
+  body.kind = SpaceKind::se2;
+  EXPECT_THAT(refusal(body), HasSubstr("robot: is missing"));
+  body.robot = {box_mesh({0, 0, 0}, {1, 1, 1})};
+  EXPECT_THAT(refusal(body), HasSubstr("obstacles: are footprints"));
+  body.footprints.clear();
+  body.obstacles = {box_mesh({0, 0, 0}, {3, 4, 1})};
+  EXPECT_EQ(refusal(body), "");
+  body.robot.clear();
+  body.kind = SpaceKind::plane;
+  EXPECT_THAT(refusal(body), HasSubstr("obstacles: are meshes"));
+}
+
+TEST(PlanningProblem, CoordinatesBecomeConfigurations) {
+  const std::vector<double> turned{1, 2, 3 * pi / 2}, placed{1, 2, 3, -2e-4, 0, 0, -1};
+  expect_near(configuration_of(SpaceKind::se2, turned, "q"), Vector3d(1, 2, -pi / 2));
+  expect_near(configuration_of(SpaceKind::space, turned, "q"), Vector3d(1, 2, 3 * pi / 2));
+  const Configuration q = configuration_of(SpaceKind::se3, placed, "q");
+  EXPECT_NEAR(q.tail<4>().norm(), 1, 1e-15);
+  EXPECT_GT(q[3], 0);
+  EXPECT_THROW(configuration_of(SpaceKind::plane, turned, "q"), InputError);
+  EXPECT_THROW(configuration_of(SpaceKind::plane, std::vector<double>{0, std::nan("")}, "q"), InputError);
+  EXPECT_THROW(configuration_of(SpaceKind::se3, std::vector<double>{0, 0, 0, 1, 1, 0, 0}, "q"), InputError);
 }
 
 TEST_F(PlanningProblemFiles, OtherFilesGoWithAnEnvironmentOnly) {

@@ -62,6 +62,17 @@ py::array vector_out(std::vector<Value> values) {
   return array_out(std::move(values), {size});
 }
 
+// A view, which cannot be written to, of a matrix of Eigen's that `owner` holds.
+template <typename Matrix>
+py::array read_only_view(const Matrix& matrix, const py::object& owner) {
+  using Value = typename Matrix::Scalar;
+  constexpr auto size = static_cast<py::ssize_t>(sizeof(Value));
+  py::array_t<Value> view({matrix.rows(), matrix.cols()}, {size * matrix.rowStride(), size * matrix.colStride()},
+                          matrix.data(), owner);
+  view.attr("setflags")(py::arg("write") = false);
+  return view;
+}
+
 // One row after the other, each of the same length, by one copy.
 template <typename Rows>
 py::array rows_out(const Rows& rows, py::ssize_t columns) {

@@ -5,6 +5,8 @@
 
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "partwise/geometry/mesh.h"
 
@@ -17,6 +19,9 @@ using SharedMesh = std::shared_ptr<Mesh>;
 
 // A Mesh as it is, without a copy; of arrays by one copy. Errors: InputError for arrays that are no mesh.
 SharedMesh mesh_in(const py::handle& given, const std::string& name = "mesh");
+
+// Of a list of them. Errors: also for what is no list.
+std::vector<Mesh> meshes_in(const py::handle& given, const std::string& name);
 
 // n x 3 vertices and m x 3 whole numbers below n.
 SharedMesh mesh_of_arrays(const py::handle& vertices, const py::handle& faces);

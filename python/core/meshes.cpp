@@ -15,21 +15,12 @@
 namespace partwise::python {
 namespace {
 
-// A view of a matrix that `owner` holds.
-template <typename Matrix>
-py::array read_only_view(const Matrix& matrix, const py::object& owner) {
-  py::array_t<typename Matrix::Scalar> view({matrix.rows(), matrix.cols()}, matrix.data(), owner);
-  view.attr("setflags")(py::arg("write") = false);
-  return view;
-}
-
 // As partwise decompose --hulls names and colours them.
-void write_as_parts(const std::filesystem::path& path, const py::sequence& meshes) {
+void write_as_parts(const std::filesystem::path& path, const py::object& meshes) {
   std::vector<NamedMesh> parts;
-  for (const py::handle& each : meshes) {
+  for (Mesh& mesh : meshes_in(meshes, "meshes")) {
     const auto number = static_cast<int>(parts.size());
-    parts.push_back(
-        {fmt::format("part_{}", number), *mesh_in(each, fmt::format("meshes[{}]", number)), part_colour(number)});
+    parts.push_back({fmt::format("part_{}", number), std::move(mesh), part_colour(number)});
   }
   const py::gil_scoped_release released;
   write_meshes(path, parts);
@@ -63,6 +54,15 @@ SharedMesh mesh_in(const py::handle& given, const std::string& name) {
     return mesh_of_arrays(pair[0], pair[1]);
   }
   throw InputError(name, "is no mesh", "give a partwise.Mesh, or a pair (vertices, faces)");
+}
+
+std::vector<Mesh> meshes_in(const py::handle& given, const std::string& name) {
+  if (!py::isinstance<py::list>(given) && !py::isinstance<py::tuple>(given)) {
+    throw InputError(name, "is no list", "give a list of meshes");
+  }
+  std::vector<Mesh> meshes;
+  for (const py::handle& each : given) meshes.push_back(*mesh_in(each, fmt::format("{}[{}]", name, meshes.size())));
+  return meshes;
 }
 
 void add_meshes(py::module_& core) {

@@ -10,10 +10,15 @@ PYBIND11_MODULE(_core, core) {
   add_meshes(core);
   add_solid_parts(core);
   add_surface_parts(core);
+  add_applications(core);
+  add_nets(core);
+  add_retrieval(core);
   add_outlines(core);
   add_images(core);
   add_materials(core);
   add_rendering(core);
   add_normals(core);
   add_motion(core);
+  add_problems(core);
+  add_paths(core);
 }

@@ -5,6 +5,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,6 +22,7 @@
 #include "partwise/motion/margin_push.h"
 #include "partwise/motion/roadmap.h"
 #include "partwise/motion/world.h"
+#include "problems.h"
 
 namespace partwise::python {
 namespace {
@@ -111,6 +113,28 @@ RoadmapArrays as_arrays(const Found& found) {
   return arrays;
 }
 
+using WorldMaker = std::function<World(const Progress&)>;
+
+// What is given is kept by the maker, which needs nothing of Python's.
+WorldMaker world_maker(const py::object& obstacles, std::optional<double> tolerance) {
+  const WorldSettings settings = {.tolerance = tolerance};
+  if (py::isinstance<City>(obstacles)) {
+    return [city = obstacles.cast<City>(), settings](const Progress& progress) {
+      return city_world(city, settings, progress);
+    };
+  }
+  if (py::isinstance<PlanningProblem>(obstacles)) {
+    ProblemWorldSettings of_problem;
+    of_problem.tolerance = tolerance.value_or(of_problem.tolerance);
+    return [problem = problem_in(obstacles), of_problem](const Progress& progress) {
+      return problem_world(*problem, of_problem, progress);
+    };
+  }
+  return [mesh = mesh_in(obstacles, "obstacles"), settings](const Progress& progress) {
+    return mesh_world(*mesh, settings, progress);
+  };
+}
+
 RoadmapArrays roadmap(const py::object& obstacles, int samples, const std::string& method, const std::string& step,
                       double epsilon, std::optional<double> tolerance, int neighbours, std::uint64_t seed) {
   RoadmapSettingsIn settings;
@@ -123,14 +147,9 @@ RoadmapArrays roadmap(const py::object& obstacles, int samples, const std::strin
   settings.push.epsilon = epsilon;
   settings.sampling = {.count = samples, .only_on_axis = settings.method == Method::svma, .seed = seed};
   settings.connecting = {.neighbours = neighbours, .seed = seed};
-  const bool is_city = py::isinstance<City>(obstacles);
-  const City city = is_city ? obstacles.cast<City>() : City{};
-  const SharedMesh mesh = is_city ? nullptr : mesh_in(obstacles, "obstacles");
-  return as_arrays(long_call([&](const Progress& progress) {
-    const WorldSettings world = {.tolerance = tolerance};
-    return found_among(is_city ? city_world(city, world, progress) : mesh_world(*mesh, world, progress), settings,
-                       progress);
-  }));
+  const WorldMaker made_ready = world_maker(obstacles, tolerance);
+  return as_arrays(
+      long_call([&](const Progress& progress) { return found_among(made_ready(progress), settings, progress); }));
 }
 
 }  // namespace
@@ -152,11 +171,13 @@ void add_motion(py::module_& core) {
       "The footprints of a .geojson in degrees, as metres about the centre of its box; limit keeps the nearest.");
 
   py::class_<RoadmapArrays>(core, "Roadmap", "A graph along the medial axis, from roadmap().")
-      .def_readonly("samples", &RoadmapArrays::samples, "n x 2 float64 in a city (metres), n x 3 in a mesh.")
+      .def_readonly(
+          "samples", &RoadmapArrays::samples,
+          "n x d float64: in a city x, y (metres), in a mesh x, y, z, else the coordinates of the problem's space.")
       .def_readonly("distances", &RoadmapArrays::distances,
                     "n x 2 float64, from each sample to the nearest obstacle and to the next.")
       .def_readonly("edges", &RoadmapArrays::edges, "e x 2 int32, samples that free motions join.")
-      .def_readonly("between", &RoadmapArrays::between, "Of each edge the places where it bends, k x 2 or k x 3.")
+      .def_readonly("between", &RoadmapArrays::between, "Of each edge where it bends, k x d.")
       .def_readonly("on_axis", &RoadmapArrays::on_axis, "Share of samples whose distances differ by 2 % at most.")
       .def_readonly("components", &RoadmapArrays::components, "Of the graph.")
       .def_readonly("obstacles", &RoadmapArrays::obstacles, "How many there are.")
@@ -164,11 +185,11 @@ void add_motion(py::module_& core) {
   core.def("roadmap", &roadmap, py::arg("obstacles"), py::kw_only(), py::arg("samples") = 1000,
            py::arg("method") = "svma", py::arg("step") = "combined", py::arg("epsilon") = 0.02,
            py::arg("tolerance") = py::none(), py::arg("neighbours") = 8, py::arg("seed") = 0,
-           "The medial axis of the free space among obstacles, for a point (docs/roadmap.md).\n\n"
-           "obstacles: a City, or a mesh in space.\n"
+           "The medial axis of the free space among obstacles (docs/roadmap.md).\n\n"
+           "obstacles: a City or a mesh in space, for a point; or a Problem, for its robot.\n"
            "method: 'svma', 'maprm' or 'maprm-exact'. step, epsilon: of svma, 'svm', 'clearance' or 'combined', and "
            "where it stops.\n"
-           "tolerance: concavity of the parts that are obstacles; left out, whole footprints, 0.05 of meshes.\n"
+           "tolerance: concavity of the parts that are obstacles; left out, whole footprints of a City, else 0.05.\n"
            "neighbours: edges tried from each sample.");
 }
 

@@ -1,7 +1,10 @@
-// partwise.normals_from_depth: ground truth of normals from pictures of depth.
+// partwise.normals_from_depth: ground truth of normals from pictures of depth; normals in files.
+#include <fmt/format.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -10,6 +13,7 @@
 #include "long_call.h"
 #include "partwise/base/error.h"
 #include "partwise/normals/truth/depth_normals.h"
+#include "partwise/normals/truth/normal_files.h"
 
 namespace partwise::python {
 namespace {
@@ -38,6 +42,16 @@ py::array normals(const py::object& given, double focal, std::optional<std::pair
       [&](const Progress& progress) { return normals_from_depth(depth, camera, {.noise = noise}, progress); }));
 }
 
+void write(const std::filesystem::path& path, const py::object& given, int bits) {
+  const Image normals = image_in(given, "normals");
+  if (normals.channels != 3) {
+    throw InputError("normals", fmt::format("has {} channels", normals.channels), "give an array h x w x 3");
+  }
+  if (bits != 8 && bits != 16) throw InputError("bits", fmt::format("is {}", bits), "give 8 or 16");
+  const py::gil_scoped_release released;
+  write_normals(path, normals, bits == 8 ? NormalBits::eight : NormalBits::sixteen);
+}
+
 }  // namespace
 
 void add_normals(py::module_& core) {
@@ -47,6 +61,15 @@ void add_normals(py::module_& core) {
            "depth: h x w, metres; 0 or less or not finite where it is missing.\n"
            "focal: pixels. centre: (column, row), left out the middle.\n"
            "noise: standard deviation of the inverse depth, 1/m; 0 for exact depths, left out a Kinect's.");
+  core.def(
+      "read_normals",
+      [](const std::filesystem::path& path) {
+        return image_out(long_call([&](const Progress&) { return read_normals(path); }));
+      },
+      py::arg("path"), "The normals of a .png or .exr: h x w x 3 float32 of unit length, zero where there is none.");
+  core.def("write_normals", &write, py::arg("path"), py::arg("normals"), py::kw_only(), py::arg("bits") = 16,
+           "Writes normals, h x w x 3, as they are to .exr, or as (n + 1) / 2 to .png.\n\n"
+           "bits: of a .png, a channel: 8 or 16.");
 }
 
 }  // namespace partwise::python

@@ -1,6 +1,7 @@
-// partwise.feature and partwise.segment: features of surfaces and what is cut by them, with arrays.
+// partwise.feature, segment and medial_samples: features of surfaces, what is cut by them, and points inside.
 #include <pybind11/stl.h>
 
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "mesh_arguments.h"
 #include "partwise/geometry/smoothing.h"
 #include "partwise/parts/surface/continuous_visibility.h"
+#include "partwise/parts/surface/medial_samples.h"
 #include "partwise/parts/surface/segmentation.h"
 #include "partwise/parts/surface/shape_diameter.h"
 
@@ -71,6 +73,21 @@ Segments segments_of(const py::object& mesh, const std::string& feature_name, co
           .smoothness = found.smoothness};
 }
 
+struct MedialArrays {
+  py::array points, radii;
+};
+
+MedialArrays medial(const py::object& mesh, double spacing, double least_angle) {
+  const SharedMesh input = mesh_in(mesh);
+  if (!(least_angle >= 0 && least_angle <= 180)) {
+    throw InputError("least_angle", "is not from 0 to 180", "give degrees, 60 are usual");
+  }
+  const MedialSettings settings = {.spacing = spacing, .least_angle = least_angle * (std::numbers::pi / 180)};
+  MedialSamples found = long_call([&](const Progress& progress) { return medial_samples(*input, settings, progress); });
+  const py::ssize_t rows = found.points.rows();
+  return {.points = array_out(std::move(found.points), {rows, 3}), .radii = vector_out(std::move(found.radii))};
+}
+
 }  // namespace
 
 void add_surface_parts(py::module_& core) {
@@ -94,6 +111,16 @@ void add_surface_parts(py::module_& core) {
            "Parts of a mesh as people would cut it, from a feature of its surface (docs/segment.md).\n\n"
            "feature: a kind of feature(). borders: 'automatic', 'plain' or 'learnt'.\n"
            "clusters, smoothness: left out, what was fitted to people's segmentations.");
+
+  py::class_<MedialArrays>(core, "MedialSamples", "Points of the medial axis, from medial_samples().")
+      .def_readonly("points", &MedialArrays::points, "n x 3 float64, centres of balls inside the surface.")
+      .def_readonly("radii", &MedialArrays::radii, "n float64, their distances to the surface, model units.")
+      .def("__len__", [](const MedialArrays& samples) { return samples.radii.shape(0); });
+  core.def("medial_samples", &medial, py::arg("mesh"), py::kw_only(), py::arg("spacing") = MedialSettings().spacing,
+           py::arg("least_angle") = 60.0,
+           "Points of the medial axis of a mesh, with their distances from the surface (docs/feature.md).\n\n"
+           "spacing: longer edges are halved first, a share of the bounding sphere's radius.\n"
+           "least_angle: degrees between the two nearest points of the surface, seen from the sample.");
 }
 
 }  // namespace partwise::python

@@ -1,4 +1,5 @@
-// The extension module partwise._editing, which needs libtorch: partwise.edit. python/partwise/editing.py loads it.
+// The extension module partwise._editing, which needs libtorch: partwise.edit and photo_normals.
+// python/partwise/editing.py loads it.
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -16,6 +17,7 @@
 #include "partwise/appearance/rendering/material_ball.h"
 #include "partwise/base/shared_files.h"
 #include "partwise/editing/edit_photo.h"
+#include "photo_normals.h"
 #include "photos.h"
 
 namespace partwise::python {
@@ -91,4 +93,5 @@ PYBIND11_MODULE(_editing, editing) {
   editing.def("edit", &edit, py::arg("photo"), py::arg("masks"), py::arg("coefficients"), py::arg("other"),
               py::arg("other_masks"), py::arg("light"), py::arg("refine"), py::arg("weights"),
               "What partwise.edit does, with materials as their 108 numbers.");
+  add_photo_normals(editing);
 }

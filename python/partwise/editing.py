@@ -1,4 +1,4 @@
-"""Another material on one photo. libtorch is loaded by the first edit, not before."""
+"""What is read off one photo: its object in another material, its normals. libtorch is loaded by the first call."""
 
 from ._core import InputError, Material, material as find_material
 
@@ -21,11 +21,28 @@ def edit(photo, material=None, *, masks=None, other=None, other_masks=None, ligh
     if material is not None:
         several = material if isinstance(material, (list, tuple)) else [material]
         coefficients = [_coefficients(each) for each in several]
+    return _module("edit").edit(photo, masks, coefficients, other, other_masks, light, refine, weights)
+
+
+def photo_normals(photo, *, mask=None, weights=None):
+    """The normals of the object of a photo (docs/normals.md): h x w x 3 float32 in camera space, unit vectors (+x right,
+    +y up, +z towards the camera), zero off the object.
+
+    photo: a .png or .jpg; or an array h x w x 3 or 4 as shown, uint8 or 0 to 1.
+    mask: where the object is, a file for a photo in a file, else an array h x w. Left out: what is not transparent, or
+    (files) not of the background's plain colour.
+    weights: a network that `partwise train` made; left out, that which ships.
+    """
+    return _module("photo_normals").photo_normals(photo, None if mask is None else [mask], weights)
+
+
+def _module(function):
     try:
         from . import _editing
     except ImportError as error:
-        raise ImportError("edit needs libtorch; build partwise with -DPARTWISE_LEARNING=ON, or install libtorch-dev") from error
-    return _editing.edit(photo, masks, coefficients, other, other_masks, light, refine, weights)
+        remedy = "build partwise with -DPARTWISE_LEARNING=ON, or install libtorch-dev"
+        raise ImportError(f"{function} needs libtorch; {remedy}") from error
+    return _editing
 
 
 def _coefficients(given):

@@ -23,3 +23,6 @@ def edit(
     refine: bool = False,
     weights: Path | None = None,
 ) -> Edit: ...
+def photo_normals(
+    photo: Path | ArrayLike, *, mask: Path | ArrayLike | None = None, weights: Path | None = None
+) -> NDArray[np.float32]: ...

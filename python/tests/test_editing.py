@@ -1,4 +1,4 @@
-"""Edits are the program's, to the byte; libtorch is there only once something is edited."""
+"""Edits and normals off photos are the program's, to the byte; libtorch is there only once it is needed."""
 
 import subprocess
 import sys
@@ -7,20 +7,24 @@ from pathlib import Path
 import numpy as np
 import partwise as pw
 import pytest
+from memory import expect_nothing_left
 from program import CHAIR, run, same_bytes
+
+
+def photo_and_mask():
+    """A picture of a chair before white, and where it is, both 0 to 1."""
+    seen = pw.render(pw.read_mesh(CHAIR), "red-plastic", size=(96, 96))
+    shown = pw.tone_mapped(seen.image, seen.mask)
+    shown[seen.mask == 0] = 1
+    return np.clip(shown, 0, 1), seen.mask
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    """A picture of a chair before white, and its mask."""
     folder = tmp_path_factory.mktemp("edit")
-    seen = pw.render(pw.read_mesh(CHAIR), "red-plastic", size=(96, 96))
-    shown = pw.tone_mapped(seen.image, seen.mask)
-    shown[seen.mask == 0] = 1
-    pw.write_image(folder / "photo.png", shown, shown=True)
-    pw.write_image(folder / "mask.png", seen.mask, shown=True)
+    for name, image in zip(("photo.png", "mask.png"), photo_and_mask(), strict=True):
+        pw.write_image(folder / name, image, shown=True)
     return folder
-
 
 
 @pytest.mark.parametrize("light", [None, "venice"])
@@ -37,12 +41,8 @@ def test_edits_are_the_programs(folder, light):
 
 def test_arrays_are_photos(folder):
     """Of the same values as a file and its mask."""
-    mask = np.rint(255 * pw.render(pw.read_mesh(CHAIR), "red-plastic", size=(96, 96)).mask).astype(np.uint8)
     run(folder, "edit", "photo.png", "--mask", "mask.png", "--material", "chrome", "-o", "a.png")
-    seen = pw.render(pw.read_mesh(CHAIR), "red-plastic", size=(96, 96))
-    shown = pw.tone_mapped(seen.image, seen.mask)
-    shown[seen.mask == 0] = 1
-    photo = np.rint(255 * np.clip(shown, 0, 1)).astype(np.uint8)
+    photo, mask = (np.rint(255 * each).astype(np.uint8) for each in photo_and_mask())
     edit = pw.edit(photo, pw.material("chrome"), masks=[mask])
     pw.write_image(folder / "b.png", edit.image, shown=True)
     same_bytes(folder, "a.png", "b.png")
@@ -54,7 +54,36 @@ def test_another_photo_gives_its_material(folder):
     same_bytes(folder, "a.png", "b.png")
 
 
+@pytest.mark.parametrize("masked", [False, True])
+def test_normals_are_the_programs(folder, masked):
+    run(folder, "normals", "photo.png", "-o", "a.png", *(["--mask", "mask.png"] if masked else []))
+    normals = pw.photo_normals(folder / "photo.png", mask=folder / "mask.png" if masked else None)
+    pw.write_normals(folder / "b.png", normals)
+    same_bytes(folder, "a.png", "b.png")
+    lengths = np.linalg.norm(normals, axis=2)
+    assert normals.shape == (96, 96, 3) and normals.dtype == np.float32
+    assert ((np.abs(lengths - 1) < 1e-5) | (lengths == 0)).all() and 0 < lengths.mean() < 1
+
+
+def test_normals_of_arrays_are_those_of_files(folder):
+    photo, mask = (np.rint(255 * each).astype(np.uint8) for each in photo_and_mask())
+    of_files = pw.photo_normals(folder / "photo.png", mask=folder / "mask.png")
+    assert (pw.photo_normals(photo, mask=mask) == of_files).all()
+    assert (pw.photo_normals(np.dstack([photo, mask])) == of_files).all()
+
+
+def test_calls_leave_nothing():
+    """Fewer than elsewhere, as each reads the network; of a larger photo, one array of which would show."""
+    photo = np.dstack([np.full((64, 64, 3), 0.5), np.pad(np.ones((32, 32)), 16)])
+    expect_nothing_left(lambda: pw.photo_normals(photo), times=200)
+
+
 WRONG = {
+    "channels of normals": (lambda: pw.photo_normals(np.zeros((4, 4))), "photo: has 1 channels"),
+    "no object": (lambda: pw.photo_normals(np.zeros((4, 4, 3))), "photo: has no transparency"),
+    "NaN": (lambda: pw.photo_normals(np.full((4, 4, 3), np.nan)), "photo[0]: holds nan"),
+    "mask of normals": (lambda: pw.photo_normals(np.zeros((4, 4, 3)), mask=np.ones((3, 4))), "masks[0]: is 3 x 4 x 1"),
+    "weights": (lambda: pw.photo_normals(np.zeros((4, 4, 3)), mask=np.ones((4, 4)), weights="nowhere.pt"), "nowhere.pt: "),
     "channels": (lambda: pw.edit(np.zeros((4, 4)), "chrome"), "photo: has 1 channels"),
     "no mask": (lambda: pw.edit(np.zeros((4, 4, 3)), "chrome"), "photo: has no transparency"),
     "values": (lambda: pw.edit(np.full((4, 4, 3), 7.0), "chrome"), "photo: holds 7"),

@@ -10,7 +10,17 @@ import pytest
 from program import CHAIR, NOTCH
 
 MESH = ([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+SOLID = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
+INSIDE = [0.2, 0.2, 0.2]
+FREE = pw.Problem("space", [SOLID], queries=[([1, 0.9, 0.9], [0.9, 1, 0.9])])
+BODY = pw.Problem("se3", [SOLID], [SOLID])
+INDEX = pw.index_parts(SOLID)
 SQUARE = [[0, 0], [1, 0], [1, 1], [0, 1]]
+
+
+def in_space(**more):
+    return pw.Problem("space", [SOLID], **more)
+
 
 WRONG = {
     "shape of vertices": (lambda: pw.Mesh([[0, 0]], [[0, 0, 0]]), "vertices: has the shape 1 x 2; give an array n x 3"),
@@ -53,6 +63,51 @@ WRONG = {
     "size": (lambda: pw.render(MESH, "chrome", size=(0, 5)), "size: is not from 1"),
     "depth": (lambda: pw.normals_from_depth(np.zeros((2, 2, 3)), 500), "depth: is no picture of depth"),
     "focal": (lambda: pw.normals_from_depth(np.ones((2, 2)), 0), "focal: is not above 0"),
+    "normals": (lambda: pw.write_normals("never.png", np.zeros((2, 2))), "normals: has 1 channels"),
+    "bits": (lambda: pw.write_normals("never.png", np.zeros((2, 2, 3)), bits=12), "bits: is 12"),
+    "spacing": (lambda: pw.medial_samples(MESH, spacing=0), "spacing: is 0"),
+    "angle": (lambda: pw.medial_samples(MESH, least_angle=float("nan")), "least_angle: is not from 0 to 180"),
+    "faces of a cage": (lambda: pw.make_cage(MESH, max_faces=3), "max_faces: 3 faces enclose nothing"),
+    "open cage": (lambda: pw.deform(MESH, MESH, MESH[0]), "cage: is not closed"),
+    "outside of a cage": (lambda: pw.CageDeformer([[2, 2, 2]], SOLID), "mesh: vertex 0 is not inside"),
+    "points": (lambda: pw.CageDeformer([[0, 0]], SOLID), "points: has the shape 1 x 2"),
+    "coordinates": (lambda: pw.CageDeformer([INSIDE], SOLID, "harmonic"), "coordinates: harmonic is none of green"),
+    "vertices of a cage": (lambda: pw.CageDeformer([INSIDE], SOLID).deformed(MESH[0]), "cage: 3 vertices are given for 4"),
+    "moved to NaN": (lambda: pw.deform(MESH, SOLID, np.full((4, 3), np.nan)), "cage_vertices[0]: holds nan"),
+    "moves": (lambda: pw.read_cage_moves("nowhere.json", SOLID), "nowhere.json: "),
+    "tolerance of a repair": (lambda: pw.repair(MESH, tolerance=0.001), "tolerance: 0.001 is out of range"),
+    "open reference": (lambda: pw.repair_loss(SOLID, MESH), "reference: is not watertight"),
+    "open repair": (lambda: pw.repair_loss(MESH, SOLID), "repaired: is not watertight"),
+    "tab": (lambda: pw.unfold(SOLID, tab=float("inf")), "tab: is below 0"),
+    "nothing to unfold": (lambda: pw.unfold((MESH[0], np.zeros((0, 3), int))), "mesh: has no faces"),
+    "face without area": (lambda: pw.unfold((MESH[0], [[0, 1, 1]])), "mesh: "),
+    "nets": (lambda: pw.write_nets("never.svg", [SOLID]), "unfoldings[0]: is no Unfolding"),
+    "no nets": (lambda: pw.write_nets("never.svg", []), "nets: there are none"),
+    "ending of nets": (lambda: pw.write_nets("never.png", []), "never.png: has an ending that is not known"),
+    "part": (lambda: pw.similar_parts(INDEX, 7, [INDEX]), "part: there is no part 7"),
+    "parts": (lambda: pw.part_similarity(INDEX, 0, INDEX, -1), "part_b: is -1, there are 1"),
+    "no index": (lambda: pw.similar_parts(INDEX, 0, [SOLID]), "indices[0]: is no PartIndex"),
+    "folder": (lambda: pw.open_part_database("nowhere"), "nowhere: cannot be listed"),
+    "space": (lambda: pw.Problem("se4", []), "space: se4 is none of plane, space, se2, se3"),
+    "no obstacles": (lambda: pw.Problem("space", []), "obstacles: the world holds no obstacle"),
+    "no list of meshes": (lambda: pw.Problem("space", SOLID[0]), "obstacles[0]: is no mesh"),
+    "no robot": (lambda: pw.Problem("se3", [SOLID]), "robot: is missing"),
+    "city for a body": (lambda: pw.Problem("se2", pw.City([[SQUARE]]), [SOLID]), "obstacles: are footprints"),
+    "mesh for a point": (lambda: pw.Problem("plane", [SOLID]), "obstacles: are meshes"),
+    "bounds": (lambda: in_space(bounds=[[0, 0], [1, 1]]), "bounds: has the shape 2 x 2; give an array 2 x 3"),
+    "bounds upside down": (lambda: in_space(bounds=[[1] * 3, [0] * 3]), "bounds: the bounds run from 1 to 0"),
+    "query of NaN": (lambda: in_space(queries=[([0, 0, np.nan], [1, 1, 1])]), "queries[0].start[2]: holds nan"),
+    "query": (lambda: in_space(queries=[([0, 0], [1, 1, 1])]), "queries[0].start: has the shape 2"),
+    "query outside": (lambda: in_space(queries=[([9, 9, 9], [1, 1, 1])]), "queries[0].start: the start at 9, 9, 9"),
+    "quaternion": (lambda: pw.plan(BODY, ([0] * 7, [0] * 7)), "query.start: has a quaternion of length 0"),
+    "prisms": (lambda: pw.prisms([[SQUARE]], 1, 0), "low, high: do not run upward"),
+    "no problem": (lambda: pw.plan(SOLID), "problem: is no problem"),
+    "number of a query": (lambda: pw.plan(FREE, 1), "query: is 1, the problem has 1"),
+    "start outside": (lambda: pw.plan(FREE, ([9, 9, 9], [1, 1, 1])), "query.start: lies outside the bounds"),
+    "start inside": (lambda: pw.plan(FREE, (INSIDE, [1, 1, 1])), "query: the robot touches an obstacle at the start"),
+    "planner": (lambda: pw.plan(FREE, planner="rrt"), "planner: rrt is none of svma, maprm, umaprm"),
+    "time": (lambda: pw.plan(FREE, time=float("nan")), "time: is not above 0"),
+    "file of a problem": (lambda: pw.read_problem("nowhere.cfg"), "nowhere.cfg: "),
     "method": (lambda: pw.roadmap(MESH, method="prm"), "method: prm is none of svma, maprm, maprm-exact"),
     "material of an edit": (lambda: pw.edit("photo.png"), "material: one of material and other"),
 }
@@ -76,12 +131,19 @@ def test_words_that_no_function_has_are_type_errors():
         pw.decompose(MESH, tolerence=0.1)
 
 
-def long_work():
-    """Much longer than any test waits."""
-    pw.roadmap(pw.City([[SQUARE], [[[x + 3, y] for x, y in SQUARE]]]), samples=100_000_000)
+TOWN = pw.City([[SQUARE], [[[x + 3, y] for x, y in SQUARE]]])
+# Where no path is: walls all around the goal.
+FRAME = pw.City([[[[9 * x, 9 * y] for x, y in SQUARE], [[2 + 5 * x, 2 + 5 * y] for x, y in SQUARE]]])
+WALLED = pw.Problem("plane", FRAME, bounds=[[-3, -3], [12, 12]], queries=[([-2, -2], [4, 4])])
+LONG_WORK = {
+    "roadmap": lambda: pw.roadmap(TOWN, samples=100_000_000),
+    "plan": lambda: pw.plan(WALLED, planner="maprm", time=1e6),
+}
 
 
-def test_ctrl_c_ends_long_calls():
+@pytest.mark.parametrize("long_work", LONG_WORK.values(), ids=LONG_WORK.keys())
+def test_ctrl_c_ends_long_calls(long_work):
+    """Of work that takes much longer than any test waits."""
     main = threading.main_thread().ident
     threading.Timer(0.5, lambda: signal.pthread_kill(main, signal.SIGINT)).start()
     start = time.monotonic()

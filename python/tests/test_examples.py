@@ -39,6 +39,20 @@ def test_streets(tmp_path):
     assert np.loadtxt(tmp_path / "streets.txt").shape == (400, 3)
 
 
+def test_plan_path(tmp_path):
+    said = example("plan_path.py", TOWN, tmp_path / "way.txt")
+    assert float(said.split("nearer than ")[1].split()[0]) > 0
+    way = np.loadtxt(tmp_path / "way.txt")
+    assert way.shape[1] == 3 and len(way) == int(said.split(" m and ")[1].split()[0]) + 2
+
+
+def test_the_page_plans_a_path():
+    page = (REPOSITORY / "docs" / "python.md").read_text()
+    names = {"pw": pw, "np": np}
+    exec(page.split("## Paths\n\n```python\n")[1].split("```")[0], names)
+    assert names["path"].clearance_min > 0.1
+
+
 def test_the_page_quotes_the_first_example():
     source = (EXAMPLES / "decompose.py").read_text()
     quoted = source[source.index("mesh ="):]

@@ -2,6 +2,7 @@
 
 import numpy as np
 import partwise as pw
+import pytest
 
 FOCAL = 500.0
 
@@ -25,3 +26,18 @@ def test_missing_depths_have_no_normal():
     depth[:, 15:] = np.nan
     normals = pw.normals_from_depth(depth, FOCAL, (14.5, 14.5), noise=0)
     assert (normals[:, 15:] == 0).all() and np.allclose(normals[10:20, 2:10], [0, 0, 1], atol=1e-4)
+
+
+def random_normals():
+    normals = np.random.default_rng(1).normal(size=(5, 7, 3)).astype(np.float32)
+    normals /= np.linalg.norm(normals, axis=2, keepdims=True)
+    normals[0] = 0
+    return normals
+
+
+@pytest.mark.parametrize("name, bits, most", [("a.exr", 16, 1e-6), ("a.png", 16, 1e-4), ("a.png", 8, 2e-2)])
+def test_normals_between_file_and_array(tmp_path, name, bits, most):
+    normals = random_normals()
+    pw.write_normals(tmp_path / name, normals, bits=bits)
+    again = pw.read_normals(tmp_path / name)
+    assert again.dtype == np.float32 and np.abs(again - normals).max() < most and (again[0] == 0).all()

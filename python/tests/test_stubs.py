@@ -35,7 +35,7 @@ def of_docstring(text):
 def test_names():
     helpers = {"HasMesh"}
     assert sorted(PUBLIC) == sorted(STUB.keys() - helpers)
-    exported = {name for name in dir(pw) if not name.startswith("_")} - {"editing", "edit"}
+    exported = {name for name in dir(pw) if not name.startswith("_")} - {"editing", "edit", "photo_normals"}
     assert exported == set(PUBLIC)
 
 
@@ -61,11 +61,12 @@ def test_classes(name):
     assert all(getattr(real, member).__doc__ for member in written)
 
 
-def test_edit():
+@pytest.mark.parametrize("name", ["edit", "photo_normals"])
+def test_what_needs_libtorch(name):
     stub = ast.parse((PACKAGE / "editing.pyi").read_text())
-    function = next(node for node in stub.body if isinstance(node, ast.FunctionDef))
+    function = next(node for node in stub.body if isinstance(node, ast.FunctionDef) and node.name == name)
     before, after, defaults = of_stub(function)
-    real = inspect.signature(partwise.editing.edit).parameters
+    real = inspect.signature(getattr(partwise.editing, name)).parameters
     assert [*before, *after] == list(real)
     assert {name: ast.literal_eval(value) for name, value in defaults.items()} == {
         name: each.default for name, each in real.items() if each.default is not each.empty}

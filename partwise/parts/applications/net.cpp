@@ -68,7 +68,7 @@ class Unfolder {
     }
   }
 
-  Unfolding run();
+  Unfolding run(const Progress& progress);
 
  private:
   Point corner(Eigen::Index face, int k) const { return mesh_.vertices.row(mesh_.faces(face, k % 3)); }
@@ -261,10 +261,11 @@ void Unfolder::add_cuts(Unfolding& unfolding) const {
     }
 }
 
-Unfolding Unfolder::run() {
+Unfolding Unfolder::run(const Progress& progress) {
   std::vector<Net> best;
   std::pair<std::size_t, int> least{SIZE_MAX, 0};
   for (int i = 0; i < settings_.directions && least != std::pair<std::size_t, int>{1, 0}; ++i) {
+    progress("unfold", static_cast<double>(i) / settings_.directions);
     // Evenly over the sphere, a Fibonacci lattice; none is along an axis.
     const double z = 1 - (2 * i + 1.0) / settings_.directions,
                  around = std::numbers::pi * (3 - std::sqrt(5.0)) * i + 0.37;
@@ -284,7 +285,9 @@ Unfolding Unfolder::run() {
 
 }  // namespace
 
-Unfolding unfold(const Mesh& mesh, const UnfoldSettings& settings) { return Unfolder(mesh, settings).run(); }
+Unfolding unfold(const Mesh& mesh, const UnfoldSettings& settings, const Progress& progress) {
+  return Unfolder(mesh, settings).run(progress);
+}
 
 int count_overlaps(const Net& net) {
   int overlaps = 0;

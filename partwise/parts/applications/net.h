@@ -13,7 +13,7 @@
 //
 // Input: a triangle mesh whose edges have one or two faces, turned alike; closed or open. Lengths in model units.
 // Deterministic. Time O(m^2) for the overlap tests. Errors: InputError for an edge of more than two faces or faces
-// without area.
+// without area; Cancelled, between the directions.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,6 +21,7 @@
 #include <array>
 #include <vector>
 
+#include "partwise/base/progress.h"
 #include "partwise/geometry/mesh.h"
 
 namespace partwise {
@@ -56,7 +57,7 @@ struct Unfolding {
   int without_tab = 0;  // such pairs for which no tab had room
 };
 
-Unfolding unfold(const Mesh& mesh, const UnfoldSettings& settings = {});
+Unfolding unfold(const Mesh& mesh, const UnfoldSettings& settings = {}, const Progress& progress = {});
 
 // Pairs of faces of the net whose interiors meet.
 int count_overlaps(const Net& net);

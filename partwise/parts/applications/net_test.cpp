@@ -132,6 +132,10 @@ TEST(Unfold, RefusesWhatHasNoNet) {
   EXPECT_THROW(unfold(flat), InputError);
 }
 
+TEST(Unfold, StopsWhenAsked) {
+  EXPECT_THROW(unfold(random_hull(12, 3), {}, {{}, [] { return true; }}), Cancelled);
+}
+
 TEST(NetSheets, AllNetsLieOnTheirPagesApart) {
   std::vector<Unfolding> unfoldings;
   for (std::uint64_t seed = 0; seed < 12; ++seed) unfoldings.push_back(unfold(random_hull(20, seed)));

@@ -73,7 +73,7 @@ Repair repair(const Mesh& mesh, const RepairSettings& settings, const Progress& 
 
 RepairLoss repair_loss(const Mesh& repaired, const Mesh& intact) {
   if (!is_watertight(intact)) throw InputError("reference", "is not watertight", "give the intact mesh");
-  PARTWISE_CHECK(is_watertight(repaired), ==, true);
+  if (!is_watertight(repaired)) throw InputError("repaired", "is not watertight", "give what repair made");
   const SurfaceQuery before(intact), after(repaired);
   const double radius = bounding_sphere(intact).radius;
   RepairLoss loss;

@@ -14,7 +14,7 @@
 //
 // With a reference, the intact mesh, what was lost and added is measured: distances as certified upper bounds, volumes
 // on a grid of some 10^5 points. The same bytes for any number of threads. Errors: those of decompose(); InputError for
-// settings out of range and for a reference that is not watertight.
+// settings out of range and for meshes to compare that are not watertight.
 #pragma once
 
 #include <map>
