@@ -1,6 +1,6 @@
 // How well networks edit: the figures of the dissertation's Tables 3.1 and 3.2 on views that they have not seen.
 //
-//   editing_errors WEIGHTS VIEWS... [--count 500] [--given | --known-normals] [--parts] [--refine]
+//   editing_errors WEIGHTS VIEWS... [--count 500] [--given | --known-normals] [--parts] [--refine] [--spread]
 //                  [--materials test] [--lights NAME...] [--seed S]
 //
 // A line of JSON a picture: "material", the squared difference of scaled coefficients, summed over the 108; "render",
@@ -11,6 +11,7 @@
 //   --known-normals  true normals; light and material are optimised from what is likely before one looks, as Lombardi
 //                    and Nishino do (Table 3.2): of the weights only the range of materials counts
 //   --parts          each part of a view in a material of its own
+//   --spread         "normal_deviations" and "light_deviations", what networks get wrong by levels of 1, 2, 4, ... rows
 // Exits 0, 1 when it cannot be done, 2 for wrong usage.
 #include <ATen/Functions.h>
 #include <ATen/TensorOperators.h>
@@ -29,6 +30,7 @@
 #include "partwise/appearance/material/material_files.h"
 #include "partwise/editing/editing_networks.h"
 #include "partwise/editing/encoder_decoder.h"
+#include "partwise/editing/error_levels.h"
 #include "partwise/editing/refinement.h"
 
 namespace {
@@ -40,7 +42,8 @@ using nlohmann::ordered_json;
 struct Options {
   std::string weights, materials = "test";
   bench::JudgedPictures pictures;
-  bool given = false, known_normals = false, refine = false;
+  bool given = false, known_normals = false, refine = false, spread = false;
+  double likely_light_weight = 0.0025;
   RefinementSettings refinement;
 };
 
@@ -75,6 +78,7 @@ class Reader {
                                 networks_.log_radiance(truth.picture)};
       json["material"] = material_error(found.material, truth, range_);
       add(json, "", found, truth);
+      if (options_.spread) add_spread(json, found, truth);
       if (options_.refine)
         add(json, "refined_", refined(found, range_, truth.picture, truth.regions, options_.refinement).found, truth);
     }
@@ -100,8 +104,7 @@ class Reader {
                               log_of_radiance(at::ones_like(truth.radiance))};
     RefinementSettings settings;
     settings.normals_known = true;
-    settings.material_weight = 0.05;
-    settings.light_weight = 0.01;
+    settings.light_weight = options_.likely_light_weight;
     settings.rounds = 10;
     return refined(start, range_, truth.picture, truth.regions, settings).found;
   }
@@ -116,6 +119,13 @@ class Reader {
     json[name + "render"] = difference(shown(found, range_.coefficients(found.material), truth), truth.image, mask);
     json[name + "transfer"] = difference(shown(found, truth.targets, truth), truth.target, mask);
     json[name + "cosine"] = ((found.normals * truth.normals).sum() / mask.sum()).item<double>();
+  }
+
+  static void add_spread(ordered_json& json, const PictureLayers& found, const EditCase& truth) {
+    const at::Tensor mask = truth.mask();
+    const at::Tensor light = log_of_radiance(truth.radiance) - found.log_radiance;
+    json["normal_deviations"] = level_deviations((truth.normals - found.normals) * mask, mask);
+    json["light_deviations"] = level_deviations(light, at::ones_like(light).narrow(1, 0, 1));
   }
 
   EditingNetworks networks_;
@@ -155,10 +165,14 @@ int main(int argc, char** argv) {
   app.add_option("--materials", options.materials)->check(CLI::IsMember({"test", "training"}));
   CLI::Option* given = app.add_flag("--given", options.given, "true normals and light");
   app.add_flag("--known-normals", options.known_normals, "true normals, the rest optimised")->excludes(given);
+  app.add_flag("--spread", options.spread, "of what networks get wrong, by levels");
+  app.add_option("--likely-light-weight", options.likely_light_weight, "of --known-normals")
+      ->check(CLI::NonNegativeNumber);
   app.add_flag("--refine", options.refine, "after refinement as well");
   app.add_option("--normal-weight", options.refinement.normal_weight, "a of (3.6)")->check(CLI::NonNegativeNumber);
   app.add_option("--light-weight", options.refinement.light_weight, "b of (3.6)")->check(CLI::NonNegativeNumber);
   app.add_option("--material-weight", options.refinement.material_weight, "c")->check(CLI::NonNegativeNumber);
   app.add_option("--rounds", options.refinement.rounds, "of refinement")->check(CLI::PositiveNumber);
+  app.add_option("--steps", options.refinement.steps, "of each minimisation")->check(CLI::PositiveNumber);
   return bench::run_tool("editing_errors", app, argc, argv, [&] { return judge(options); });
 }

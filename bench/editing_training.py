@@ -31,10 +31,10 @@ NETWORKS = {
                "terms": {"material": 0.3, "light": 0.1, "pixel": 3}},
     "joint": {"network": "editing", "start": "shaded", "steps": 6000, "rates": (5e-4, 2e-5), "terms": RENDERED},
     "separate": {"network": "editing", "start": "individual", "steps": 9000, "rates": (3e-4, 2e-5), "terms": LAYERS},
-    "standalone": {"network": "editing", "start": "individual", "given": ["normals", "light"], "steps": 3000, "rates": (1e-3, 5e-5),
+    "standalone": {"network": "editing", "given": ["normals", "light"], "steps": 3000, "rates": (1e-3, 5e-5),
                    "terms": {"material": 1, "pixel": 0}},
-    "combined": {"network": "editing", "start": "individual", "given": ["normals", "light"], "steps": 3000, "rates": (1e-3, 5e-5),
-                 "terms": {"material": 0.3, "pixel": 3}},
+    "combined": {"network": "editing", "given": ["normals", "light"], "steps": 3000, "rates": (1e-3, 5e-5),
+                 "terms": {"material": 0.05, "pixel": 3}},
     "encoder_decoder": {"network": "encoder_decoder", "steps": 6000, "rates": (1e-3, 2e-5), "terms": {"material": 1, "pixel": 10, "perceptual": 0.5}},
     "photos": {"network": "editing", "start": "joint", "materials": "all", "lights": "all", "steps": 2000, "rates": (1e-4, 1e-5), "terms": RENDERED},
 }

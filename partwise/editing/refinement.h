@@ -1,12 +1,13 @@
 // What networks have read off a picture, made to explain it better (dissertation, section 3.3.5): L-BFGS on
 //
-//   |I* - I|^2 + a |n* - n|^2 + b |L* - L|^2 + c |m* - m|^2,   a = 1, b = 10, c = 0   (3.6)
+//   |I* - I|^2 + a |n* - n|^2 + b |L* - L|^2 + c |m* - m|^2                                    (3.6)
 //
 // over material, light and normals, one after the other, again and again. I and I* are display values, sums over the
-// object's pixels and channels; normals are unit vectors, the sum is over the same pixels; light is compared by its
-// logarithm, the sum over the map's pixels weighted by their solid angle (their mean weight is 1) and divided by the
-// pixels there are for one of the image, so that weights mean the same at every size. Where the picture is as white as
-// it can be, more light is no error.
+// object's pixels and channels. The dissertation's other squares (a = 1, b = 10, c = 0) are of every pixel by itself,
+// as if what networks get wrong were noise. Here changes of normals (unit vectors) and of the logarithm of light are
+// sums of levels (error_levels.h), and |.|^2 counts them, and those of scaled coefficients, in units of the variance
+// that the networks' errors have: one weight suits all three. Where the picture is as white as it can be, more light is
+// no error.
 //
 // Regions have a material each; light and normals are one for all. Shapes: pictures 1 x 4 x S x S, region masks
 // 1 x 1 x S x S, materials (scaled) R x 108. Errors: CheckFailed for other shapes.
@@ -20,12 +21,12 @@
 namespace partwise {
 
 struct RefinementSettings {
-  double normal_weight = 1, light_weight = 10, material_weight = 0;
-  bool normals_known = false;  // stay as they are
-  int rounds = 3;
-  int steps = 10;        // of L-BFGS, of each of the three a round
+  double normal_weight = 0.05, light_weight = 0.01, material_weight = 0.05;  // a, b, c
+  bool normals_known = false;                                                // stay as they are
+  int rounds = 6;
+  int steps = 5;         // of L-BFGS, of each of the three a round
   int layer_light = 64;  // columns that light is reduced to
-  int layer_map = 64;    // texels along a side
+  int layer_map = 48;    // texels along a side
 };
 
 struct Refinement {
