@@ -2,13 +2,15 @@
 """The dissertation's Tables 3.1 and 3.2 for trained networks, on views, materials and lights that they have not seen. See
 bench/README.md.
 
-    editing_bench.py NETS [--count 500] [--refine] [--record]
+    editing_bench.py NETS [--count 500] [--refine] [--lines DIR] [--record]
 
-NETS is a folder of editing_training.py; of its networks, those that are there are judged.
+NETS is a folder of editing_training.py; of its networks, those that are there are judged. Refinement takes seconds a picture:
+with --lines what is measured is kept in DIR, a file of JSON lines for each row, and a run that was stopped goes on from there.
 """
 
 import argparse
 import json
+import subprocess
 import sys
 from pathlib import Path
 
@@ -38,6 +40,7 @@ def parse(words):
     add("nets", type=Path, help="a folder of editing_training.py")
     add("--count", type=int, default=500, help="pictures")
     add("--refine", action="store_true", help="refine what networks find as well")
+    add("--lines", type=Path, metavar="DIR", help="keep what is measured, and go on from it")
     add("--tool", type=Path, default=BIN / "editing_errors")
     add("--record", action="store_true", help="append the result to bench/history/editing.jsonl")
     return parser.parse_args(words)
@@ -46,8 +49,19 @@ def parse(words):
 def measured(options, name, how):
     network, words, _, _ = ROWS[name]
     views = options.nets / "views" / ("test_parts" if "--parts" in words else "test")
-    done = expect([options.tool, options.nets / network / "best.pt", views, "--count", options.count, *words, *how], 36000)
-    return [json.loads(line) for line in done.output.splitlines()]
+    command = [options.tool, options.nets / network / "best.pt", views, *words, *how]
+    if not options.lines:
+        return [json.loads(line) for line in expect([*command, "--count", options.count], 36000).output.splitlines()]
+    options.lines.mkdir(parents=True, exist_ok=True)
+    kept = options.lines / f"{'-'.join([network, *words, *how]).replace('---', '-')}.jsonl"
+    with open(kept, "a+b") as lines:
+        lines.seek(0)
+        whole = [line for line in lines if line.endswith(b"\n")]
+        lines.truncate(sum(map(len, whole)))  # the last one may be half written
+        if (missing := options.count - len(whole)) > 0:
+            subprocess.run([*map(str, command), "--first", str(len(whole)), "--count", str(missing)], stdout=lines, check=True)
+        lines.seek(0)
+        return [json.loads(line) for line in lines][:options.count]
 
 
 def figures(pictures, prefix, key):

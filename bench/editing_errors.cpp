@@ -1,6 +1,7 @@
 // How well networks edit: the figures of the dissertation's Tables 3.1 and 3.2 on views that they have not seen.
 //
-//   editing_errors WEIGHTS VIEWS... [--count 500] [--given | --known-normals] [--parts] [--refine] [--spread]
+//   editing_errors WEIGHTS VIEWS... [--count 500] [--first 0] [--given | --known-normals] [--parts] [--refine]
+//   [--spread]
 //                  [--materials test] [--lights NAME...] [--seed S]
 //
 // A line of JSON a picture: "material", the squared difference of scaled coefficients, summed over the 108; "render",
@@ -43,6 +44,7 @@ struct Options {
   std::string weights, materials = "test";
   bench::JudgedPictures pictures;
   bool given = false, known_normals = false, refine = false, spread = false;
+  int first = 0;
   double likely_light_weight = 0.0025;
   RefinementSettings refinement;
 };
@@ -146,7 +148,7 @@ int judge(const Options& options) {
   const StoredViews views({pictures.views.begin(), pictures.views.end()});
   const auto names = options.materials == "test" ? test_materials() : training_materials();
   const bench::EditCases cases(views, names, pictures.lights, pictures.cases);
-  for (int i = 0; i < pictures.count; ++i) {
+  for (int i = options.first; i < options.first + pictures.count; ++i) {
     const EditCase truth = cases(i);
     ordered_json json = {{"picture", i}, {"regions", truth.regions.size()}};
     json.update(peer ? redrawn(*peer, truth) : (*reader)(truth));
@@ -163,6 +165,7 @@ int main(int argc, char** argv) {
   app.add_option("weights", options.weights, "of networks of editing")->required();
   bench::add_options(app, options.pictures);
   app.add_option("--materials", options.materials)->check(CLI::IsMember({"test", "training"}));
+  app.add_option("--first", options.first, "number of the first picture")->check(CLI::NonNegativeNumber);
   CLI::Option* given = app.add_flag("--given", options.given, "true normals and light");
   app.add_flag("--known-normals", options.known_normals, "true normals, the rest optimised")->excludes(given);
   app.add_flag("--spread", options.spread, "of what networks get wrong, by levels");
