@@ -53,7 +53,10 @@ def measured(options, name, how):
     if not options.lines:
         return [json.loads(line) for line in expect([*command, "--count", options.count], 36000).output.splitlines()]
     options.lines.mkdir(parents=True, exist_ok=True)
+    # Of weights that were trained since, what is kept tells nothing.
     kept = options.lines / f"{'-'.join([network, *words, *how]).replace('---', '-')}.jsonl"
+    if kept.exists() and kept.stat().st_mtime < (options.nets / network / "best.pt").stat().st_mtime:
+        kept.unlink()
     with open(kept, "a+b") as lines:
         lines.seek(0)
         whole = [line for line in lines if line.endswith(b"\n")]

@@ -45,7 +45,6 @@ struct Options {
   bench::JudgedPictures pictures;
   bool given = false, known_normals = false, refine = false, spread = false;
   int first = 0;
-  double likely_light_weight = 0.0025;
   RefinementSettings refinement;
 };
 
@@ -95,8 +94,8 @@ class Reader {
     return at::cat(rows);
   }
 
-  // What Lombardi and Nishino know before they look: here the mean of the training materials and of the lights that
-  // trainings see, either with a weight that allows for how much they differ.
+  // What Lombardi and Nishino know before they look: here the mean of the training materials, and light from
+  // everywhere; refined from there for longer than what networks find.
   PictureLayers optimised(const EditCase& truth) const {
     const auto regions = static_cast<std::int64_t>(truth.regions.size());
     std::vector<at::Tensor> materials;
@@ -106,7 +105,6 @@ class Reader {
                               log_of_radiance(at::ones_like(truth.radiance))};
     RefinementSettings settings;
     settings.normals_known = true;
-    settings.light_weight = options_.likely_light_weight;
     settings.rounds = 10;
     return refined(start, range_, truth.picture, truth.regions, settings).found;
   }
@@ -169,8 +167,6 @@ int main(int argc, char** argv) {
   CLI::Option* given = app.add_flag("--given", options.given, "true normals and light");
   app.add_flag("--known-normals", options.known_normals, "true normals, the rest optimised")->excludes(given);
   app.add_flag("--spread", options.spread, "of what networks get wrong, by levels");
-  app.add_option("--likely-light-weight", options.likely_light_weight, "of --known-normals")
-      ->check(CLI::NonNegativeNumber);
   app.add_flag("--refine", options.refine, "after refinement as well");
   app.add_option("--normal-weight", options.refinement.normal_weight, "a of (3.6)")->check(CLI::NonNegativeNumber);
   app.add_option("--light-weight", options.refinement.light_weight, "b of (3.6)")->check(CLI::NonNegativeNumber);

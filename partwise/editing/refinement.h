@@ -6,8 +6,8 @@
 // object's pixels and channels. The dissertation's other squares (a = 1, b = 10, c = 0) are of every pixel by itself,
 // as if what networks get wrong were noise. Here changes of normals (unit vectors) and of the logarithm of light are
 // sums of levels (error_levels.h), and |.|^2 counts them, and those of scaled coefficients, in units of the variance
-// that the networks' errors have: one weight suits all three. Where the picture is as white as it can be, more light is
-// no error.
+// that the networks' errors have, so that weights are of one order. Where the picture is as white as it can be, more
+// light is no error.
 //
 // Regions have a material each; light and normals are one for all. Shapes: pictures 1 x 4 x S x S, region masks
 // 1 x 1 x S x S, materials (scaled) R x 108. Errors: CheckFailed for other shapes.

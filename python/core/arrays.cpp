@@ -72,14 +72,6 @@ py::array ring_out(Ring ring) {
   return array_out(std::move(ring), {rows, 2});
 }
 
-// Arrays are sequences too, but not those that are meant.
-py::sequence list_in(const py::handle& given, const std::string& name, const char* what) {
-  if (!py::isinstance<py::sequence>(given) || py::isinstance<py::str>(given) || py::isinstance<py::array>(given)) {
-    throw InputError(name, "is no list", fmt::format("give {}", what));
-  }
-  return py::reinterpret_borrow<py::sequence>(given);
-}
-
 }  // namespace
 
 DoubleArray real_array(const py::handle& given, const std::string& name, const Shape& shape, const char* what) {
@@ -149,6 +141,13 @@ Polygons polygons_in(const py::handle& given, const std::string& name) {
   return polygons;
 }
 
+py::sequence list_in(const py::handle& given, const std::string& name, const char* what) {
+  if (!py::isinstance<py::sequence>(given) || py::isinstance<py::str>(given) || py::isinstance<py::array>(given)) {
+    throw InputError(name, "is no list", fmt::format("give {}", what));
+  }
+  return py::reinterpret_borrow<py::sequence>(given);
+}
+
 py::list polygons_out(Polygons polygons) {
   py::list result;
   for (Polygon& polygon : polygons) {
@@ -156,6 +155,14 @@ py::list polygons_out(Polygons polygons) {
     rings.append(ring_out(std::move(polygon.outer)));
     for (Ring& hole : polygon.holes) rings.append(ring_out(std::move(hole)));
     result.append(rings);
+  }
+  return result;
+}
+
+py::list footprints_out(const std::vector<Polygons>& footprints) {
+  py::list result;
+  for (const Polygons& each : footprints) {
+    for (const py::handle& polygon : polygons_out(each)) result.append(polygon);
   }
   return result;
 }

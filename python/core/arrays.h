@@ -46,6 +46,10 @@ py::array image_out(Image image);
 // A polygon is a list of its rings, k x 2 each: the outer one, then holes. A shape is a list of polygons.
 Polygons polygons_in(const py::handle& given, const std::string& name);
 py::list polygons_out(Polygons polygons);
+py::list footprints_out(const std::vector<Polygons>& footprints);  // all of their polygons, copied
+
+// A list or tuple, or another sequence that is no array and no text. `what` to give is said where it is none.
+py::sequence list_in(const py::handle& given, const std::string& name, const char* what);
 
 // Takes over the memory of a std::vector or of a row-major Eigen matrix.
 template <typename Container>

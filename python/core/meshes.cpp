@@ -57,11 +57,9 @@ SharedMesh mesh_in(const py::handle& given, const std::string& name) {
 }
 
 std::vector<Mesh> meshes_in(const py::handle& given, const std::string& name) {
-  if (!py::isinstance<py::list>(given) && !py::isinstance<py::tuple>(given)) {
-    throw InputError(name, "is no list", "give a list of meshes");
-  }
   std::vector<Mesh> meshes;
-  for (const py::handle& each : given) meshes.push_back(*mesh_in(each, fmt::format("{}[{}]", name, meshes.size())));
+  for (const py::handle& each : list_in(given, name, "a list of meshes"))
+    meshes.push_back(*mesh_in(each, fmt::format("{}[{}]", name, meshes.size())));
   return meshes;
 }
 

@@ -42,14 +42,6 @@ City city_of_footprints(const py::object& given) {
   return city;
 }
 
-py::list footprints_of(const City& city) {
-  py::list result;
-  for (const Polygons& each : city.footprints) {
-    for (const py::handle& polygon : polygons_out(each)) result.append(polygon);
-  }
-  return result;
-}
-
 struct RoadmapSettingsIn {
   Method method = Method::svma;
   MarginPushSettings push;
@@ -158,7 +150,9 @@ void add_motion(py::module_& core) {
   py::class_<City>(core, "City", "Footprints of buildings in the plane, metres.")
       .def(py::init(&city_of_footprints), py::arg("footprints"),
            "Of polygons, each a list of rings (k x 2 arrays): the outer one, then holes.")
-      .def_property_readonly("footprints", &footprints_of, "A copy of them, as they are given to City().")
+      .def_property_readonly(
+          "footprints", [](const City& city) { return footprints_out(city.footprints); },
+          "A copy of them, as they are given to City().")
       .def_readonly("centre", &City::centre, "Longitude and latitude of the origin, degrees.")
       .def("__len__", [](const City& city) { return city.footprints.size(); });
   core.def(

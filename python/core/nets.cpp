@@ -86,11 +86,8 @@ std::pair<int, double> write_nets(const std::filesystem::path& path, const py::o
     throw InputError(path.string(), "has an ending that is not known", "write .svg or .pdf");
   }
   if (!(std::isfinite(scale) && scale >= 0)) throw InputError("scale", "is below 0", "give millimetres a unit, or 0");
-  if (!py::isinstance<py::list>(given) && !py::isinstance<py::tuple>(given)) {
-    throw InputError("unfoldings", "is no list", "give a list of what unfold() made");
-  }
   std::vector<Unfolding> unfoldings;
-  for (const py::handle& each : given) {
+  for (const py::handle& each : list_in(given, "unfoldings", "a list of what unfold() made")) {
     if (!py::isinstance<UnfoldingArrays>(each)) {
       throw InputError(fmt::format("unfoldings[{}]", unfoldings.size()), "is no Unfolding", "give what unfold() made");
     }

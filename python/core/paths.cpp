@@ -53,7 +53,9 @@ void expect_free(const Scene& scene, const Configuration& q, const char* which) 
 
 Found found_along_axis(const PlanningProblem& problem, const MotionQuery& query, const AxisPathSettings& settings,
                        bool raw, double tolerance, const Progress& progress) {
-  const ProblemScene made = problem_scene(problem, {.tolerance = tolerance}, progress);
+  ProblemWorldSettings world;
+  world.tolerance = tolerance;
+  const ProblemScene made = problem_scene(problem, world, progress);
   const Scene& scene = *made.scene;
   expect_free(scene, query.start, "start");
   expect_free(scene, query.goal, "goal");
@@ -63,7 +65,8 @@ Found found_along_axis(const PlanningProblem& problem, const MotionQuery& query,
                      fmt::format("{} found no path within {} s", word_for(settings.method, planners), settings.seconds),
                      "raise time, or try another planner or seed");
   }
-  Found found{.axis = std::move(*axis)};
+  Found found;
+  found.axis = std::move(*axis);
   found.path = raw ? found.axis.path : simplified(scene, found.axis.path, {.seed = settings.seed}, progress);
   for (const Configuration& q : found.path.configurations) {
     found.clearances.push_back(scene.nearest(q, 1).front().distance);

@@ -61,10 +61,7 @@ SharedProblem problem_of(const std::string& space, const py::object& obstacles, 
   }
   problem->bounds = bounds.is_none() ? usual_bounds(*problem) : bounds_in(bounds, problem->kind);
   problem->bounds_hold_body = hold_body;
-  if (!py::isinstance<py::list>(queries) && !py::isinstance<py::tuple>(queries)) {
-    throw InputError("queries", "is no list", "give a list of pairs (start, goal)");
-  }
-  for (const py::handle& each : queries) {
+  for (const py::handle& each : list_in(queries, "queries", "a list of pairs (start, goal)")) {
     problem->queries.push_back(pair_in(each, problem->kind, fmt::format("queries[{}]", problem->queries.size())));
   }
   check_problem(*problem);
@@ -75,14 +72,6 @@ SharedProblem problem_of(const std::string& space, const py::object& obstacles, 
 py::list meshes_of(const SharedProblem& problem, std::vector<Mesh> PlanningProblem::*member) {
   py::list result;
   for (Mesh& mesh : (*problem).*member) result.append(SharedMesh(problem, &mesh));
-  return result;
-}
-
-py::list footprints_of(const PlanningProblem& problem) {
-  py::list result;
-  for (const Polygons& each : problem.footprints) {
-    for (const py::handle& polygon : polygons_out(each)) result.append(polygon);
-  }
   return result;
 }
 
@@ -167,7 +156,9 @@ void add_problems(py::module_& core) {
       .def_property_readonly(
           "obstacles", [](const SharedProblem& problem) { return meshes_of(problem, &PlanningProblem::obstacles); },
           "A Mesh each; none of a point in the plane.")
-      .def_property_readonly("footprints", &footprints_of, "The obstacles of a point in the plane, polygons.")
+      .def_property_readonly(
+          "footprints", [](const PlanningProblem& problem) { return footprints_out(problem.footprints); },
+          "The obstacles of a point in the plane, polygons.")
       .def_property_readonly("bounds", &bounds_of, "2 x 2 or 2 x 3 float64; of a sphere the box around it.")
       .def_property_readonly("queries", &queries_of, "A pair (start, goal) each, float64.")
       .def("__repr__", [](const PlanningProblem& problem) {

@@ -73,13 +73,10 @@ double similarity(const py::object& a, int part_a, const py::object& b, int part
 std::vector<std::tuple<int, int, double>> matches(const py::object& query, int part, const py::object& indices,
                                                   int count) {
   const SharedIndex wanted = index_in(query, "query");
-  if (!py::isinstance<py::list>(indices) && !py::isinstance<py::tuple>(indices)) {
-    throw InputError("indices", "is no list", "give a list, the indices of a PartDatabase for example");
-  }
   if (count < 1) throw InputError("count", "is less than 1", "give how many parts to find");
   std::vector<SharedIndex> kept;
   std::vector<const PartIndex*> searched;
-  for (const py::handle& each : indices) {
+  for (const py::handle& each : list_in(indices, "indices", "a list, the indices of a PartDatabase for example")) {
     kept.push_back(index_in(each, fmt::format("indices[{}]", kept.size())));
     searched.push_back(kept.back().get());
   }
