@@ -43,6 +43,21 @@ TEST(MaterialRange, ThereAndBack) {
   EXPECT_THROW(MaterialRange::of({}), CheckFailed);
 }
 
+TEST(MaterialRange, VariationsHaveTheCovarianceOfTheMaterials) {
+  const auto materials = test::materials();
+  const MaterialRange range = MaterialRange::of(materials);
+  const auto count = static_cast<std::int64_t>(materials.size());
+  at::Tensor all = at::empty({count, dsbrdf_size});
+  for (std::size_t i = 0; i < materials.size(); ++i) all[static_cast<std::int64_t>(i)] = as_tensor(materials[i]);
+  const at::Tensor rows = range.variations(materials), covariance = range.scaled(all).t().cov();
+  EXPECT_EQ(rows.size(0), count + dsbrdf_size);
+  const at::Tensor found = rows.t().matmul(rows),
+                   shrunk = 0.98 * covariance + 0.02 * covariance.trace() / 108 * at::eye(108);
+  EXPECT_LT((found - shrunk).abs().max().item<double>(), 1e-5);
+  EXPECT_GT(covariance.abs().max().item<double>(), 0.1);
+  EXPECT_THROW(range.variations({materials.data(), 1}), CheckFailed);
+}
+
 TEST(EditSamples, AreWhatTheLayerRenders) {
   const EditSamples plain = test::samples(false);
   const EditBatch batch = plain.batch(3, {0, 8, 8});

@@ -3,7 +3,9 @@
 #include <ATen/Functions.h>
 #include <ATen/TensorOperators.h>
 
+#include <cmath>
 #include <utility>
+#include <vector>
 
 #include "partwise/base/error.h"
 
@@ -12,6 +14,7 @@ namespace {
 
 constexpr double reach = 0.95;
 constexpr double least_width = 1e-3;  // of a coefficient that all materials share
+constexpr double shrinkage = 0.02;    // under it each training material is likeliest, given the others
 
 }  // namespace
 
@@ -48,6 +51,16 @@ at::Tensor MaterialRange::scaled(const at::Tensor& coefficients) const {
 
 at::Tensor MaterialRange::coefficients(const at::Tensor& scaled) const {
   return (scaled / reach + 1) / 2 * (high_ - low_) + low_;
+}
+
+at::Tensor MaterialRange::variations(std::span<const DsbrdfCoefficients> materials) const {
+  PARTWISE_CHECK(materials.size(), >, 1u);
+  std::vector<at::Tensor> rows;
+  for (const DsbrdfCoefficients& each : materials) rows.push_back(as_tensor(each));
+  const at::Tensor all = scaled(at::stack(rows));
+  const at::Tensor from_mean = (all - all.mean(0, true)) / std::sqrt(static_cast<double>(materials.size() - 1));
+  const double variance = from_mean.square().sum().item<double>() / dsbrdf_size;
+  return at::cat({std::sqrt(1 - shrinkage) * from_mean, std::sqrt(shrinkage * variance) * at::eye(dsbrdf_size)});
 }
 
 }  // namespace partwise

@@ -28,6 +28,11 @@ class MaterialRange {
   at::Tensor scaled(const at::Tensor& coefficients) const;
   at::Tensor coefficients(const at::Tensor& scaled) const;
 
+  // What materials differ by: (n + 108) x 108 rows, scaled, whose sum with independent weights of unit variance has the
+  // covariance of the n materials, shrunk a little towards one variance for all coefficients, for others differ in
+  // other ways as well.
+  at::Tensor variations(std::span<const DsbrdfCoefficients> materials) const;
+
  private:
   at::Tensor low_, high_;
 };

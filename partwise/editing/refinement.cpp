@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <utility>
 
+#include "partwise/appearance/material/material_files.h"
 #include "partwise/base/error.h"
 #include "partwise/editing/error_levels.h"
 #include "partwise/editing/picture_terms.h"
@@ -21,16 +23,19 @@ namespace {
 // which is what the layer sees of it.
 constexpr std::array normal_deviations = {0.071, 0.072, 0.086, 0.095, 0.102, 0.098, 0.094, 0.089};
 constexpr std::array light_deviations = {1.228, 0.664, 0.529, 0.451, 0.399, 0.351};
-constexpr double material_deviation = 0.5;  // of a scaled coefficient; 0.55 on these pictures
+constexpr double material_deviation = 0.7;  // of what materials themselves differ by
 
 at::Tensor unit(const at::Tensor& vectors, const at::Tensor& mask) {
   return vectors / (vectors.square().sum(1, true) + 1e-12).sqrt() * mask;
 }
 
+at::Tensor layer_light(const PictureLayers& found, const RefinementSettings& settings) {
+  return reduced_light(radiance_of_log(found.log_radiance), settings.layer_light);
+}
+
 // Of each region, R x 3 x T: what its material and the light make of every normal.
 at::Tensor maps_of(const PictureLayers& found, const MaterialRange& range, const RefinementSettings& settings) {
-  const at::Tensor light = reduced_light(radiance_of_log(found.log_radiance), settings.layer_light);
-  const at::Tensor materials = range.coefficients(found.material);
+  const at::Tensor light = layer_light(found, settings), materials = range.coefficients(found.material);
   return reflectance_maps(materials, light.expand({materials.size(0), -1, -1, -1}), settings.layer_map);
 }
 
@@ -48,6 +53,13 @@ ErrorLevels levels_of(const at::Tensor& field, std::span<const double> deviation
   return {field.size(2), field.size(3), deviations, wraps};
 }
 
+// What the training materials differ by.
+at::Tensor training_variations(const MaterialRange& range) {
+  std::vector<DsbrdfCoefficients> materials;
+  for (const std::string& name : training_materials()) materials.push_back(shipped_material(name).brdf.coefficients());
+  return range.variations(materials);
+}
+
 // Layers on their way from a start: how far each of the three is from it, in standard deviations.
 class Refiner {
  public:
@@ -61,19 +73,25 @@ class Refiner {
         settings_(settings),
         normals_(levels_of(start.normals, normal_deviations, false)),
         light_(levels_of(start.log_radiance, light_deviations, true)),
-        material_{at::zeros_like(start.material)} {}
+        variations_(material_deviation * training_variations(range)),
+        material_{at::zeros({start.material.size(0), variations_.size(0)})} {}
 
   // n* is a direction.
   PictureLayers layers() const {
-    return {unit(start_.normals + normals_.field(), mask_), start_.material + material_deviation * material_.front(),
-            start_.log_radiance + light_.field()};
+    return {unit(start_.normals + normals_.field(), mask_),
+            start_.material + at::matmul(material_.front(), variations_), start_.log_radiance + light_.field()};
   }
 
   void refine_material() {
     minimise(material_, [&](const PictureLayers& at) { return image_error(at, maps(at)); });
   }
   void refine_light() {
-    minimise(light_.levels(), [&](const PictureLayers& at) { return image_error(at, maps(at)); });
+    const at::Tensor materials = range_.coefficients(layers().material),
+                     transport = map_transport(materials, settings_.layer_light / 2, settings_.layer_light,
+                                               settings_.layer_map);
+    minimise(light_.levels(), [&](const PictureLayers& at) {
+      return image_error(at, transported_maps(transport, layer_light(at, settings_)));
+    });
   }
   void refine_normals() {
     const at::Tensor same = maps(layers());
@@ -125,7 +143,8 @@ class Refiner {
   const std::vector<at::Tensor>& regions_;
   const RefinementSettings& settings_;
   ErrorLevels normals_, light_;
-  std::vector<at::Tensor> material_;  // one
+  at::Tensor variations_;
+  std::vector<at::Tensor> material_;  // one, R x as many
 };
 
 }  // namespace

@@ -5,9 +5,9 @@
 // over material, light and normals, one after the other, again and again. I and I* are display values, sums over the
 // object's pixels and channels. The dissertation's other squares (a = 1, b = 10, c = 0) are of every pixel by itself,
 // as if what networks get wrong were noise. Here changes of normals (unit vectors) and of the logarithm of light are
-// sums of levels (error_levels.h), and |.|^2 counts them, and those of scaled coefficients, in units of the variance
-// that the networks' errors have, so that weights are of one order. Where the picture is as white as it can be, more
-// light is no error.
+// sums of levels (error_levels.h), those of a material sums of what the shipped training materials differ by from
+// their mean, so that it stays like a material; |.|^2 counts either in units of the variance that the networks' errors
+// have, and weights are of one order. Where the picture is as white as it can be, more light is no error.
 //
 // Regions have a material each; light and normals are one for all. Shapes: pictures 1 x 4 x S x S, region masks
 // 1 x 1 x S x S, materials (scaled) R x 108. Errors: CheckFailed for other shapes.
@@ -21,9 +21,9 @@
 namespace partwise {
 
 struct RefinementSettings {
-  double normal_weight = 0.05, light_weight = 0.01, material_weight = 0.05;  // a, b, c
-  bool normals_known = false;                                                // stay as they are
-  int rounds = 6;
+  double normal_weight = 0.1, light_weight = 0.03, material_weight = 0.05;  // a, b, c
+  bool normals_known = false;                                               // stay as they are
+  int rounds = 4;
   int steps = 5;         // of L-BFGS, of each of the three a round
   int layer_light = 64;  // columns that light is reduced to
   int layer_map = 48;    // texels along a side

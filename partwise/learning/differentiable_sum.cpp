@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstring>
 
 #include "partwise/base/error.h"
 #include "partwise/learning/lobe_lanes.h"
@@ -68,11 +69,11 @@ DifferentiableSum<Scalar>::DifferentiableSum(const std::vector<LightPixel<Scalar
   for (std::size_t i = 0; i < grid.size(); ++i) weights_.row(static_cast<Index>(i)) *= grid[i].solid_angle;
 }
 
+// use(row, channel, f cos) for the normals, a lane's worth from `row` on, that the light pixel lies in front of.
 template <typename Scalar>
-void DifferentiableSum<Scalar>::add_colours(std::size_t light, const Block& normals, Block& colours) const {
+template <typename Use>
+void DifferentiableSum<Scalar>::for_lit(std::size_t light, const Block& normals, const Use& use) const {
   using Value = typename Block::Value;
-  const auto weight = weights_.row(static_cast<Index>(light));
-  if ((weight == 0).all()) return;
   const LightPixel<Scalar>& pixel = grid_[light];
   const LobeLanes<Scalar> lobes(lobes_[light]);
   for (Index row = 0; row < normals.values.rows(); row += Block::width) {
@@ -86,9 +87,39 @@ void DifferentiableSum<Scalar>::add_colours(std::size_t light, const Block& norm
         LobeValue<Value> at;
         if (lobes.evaluate(lobe_number(channel, r), half.log(r), at)) value += at.value;
       }
-      add_to(&colours.values(row, channel), value * largest(cosine, Value{}) * weight[channel]);
+      use(row, channel, value * largest(cosine, Value{}));
     }
   }
+}
+
+template <typename Scalar>
+void DifferentiableSum<Scalar>::add_colours(std::size_t light, const Block& normals, Block& colours) const {
+  const auto weight = weights_.row(static_cast<Index>(light));
+  if ((weight == 0).all()) return;
+  for_lit(light, normals, [&](Index row, int channel, const typename Block::Value& reflected) {
+    add_to(&colours.values(row, channel), reflected * weight[channel]);
+  });
+}
+
+template <typename Scalar>
+void DifferentiableSum<Scalar>::find_transport(const PlanesRef<Scalar>& normals, TransportRef<Scalar> result) const {
+  using Value = typename Block::Value;
+  const Index lights = std::ssize(grid_);
+  PARTWISE_CHECK(result.rows(), ==, normals.rows());
+  PARTWISE_CHECK(result.cols(), ==, 3 * lights);
+  result.setZero();
+  for_blocks(normals.rows(), lights, [&](Index n, Index l) {
+    const Block some(normals, n);
+    for (Index i = l * light_block; i < std::min(lights, (l + 1) * light_block); ++i) {
+      const Scalar solid_angle = grid_[static_cast<std::size_t>(i)].solid_angle;
+      for_lit(static_cast<std::size_t>(i), some, [&](Index row, int channel, const Value& reflected) {
+        const Value arriving = reflected * solid_angle;
+        const Index rows = std::min(Block::width, some.rows - row);
+        std::memcpy(&result(n * normal_block + row, channel * lights + i), &arriving,
+                    static_cast<std::size_t>(rows) * sizeof(Scalar));
+      });
+    }
+  });
 }
 
 template <typename Scalar>

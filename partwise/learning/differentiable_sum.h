@@ -29,6 +29,11 @@ using Planes = Eigen::Array<Scalar, Eigen::Dynamic, 3>;
 template <typename Scalar>
 using PlanesRef = Eigen::Ref<const Planes<Scalar>>;
 
+// n x 3 * pixels: what a normal shows in channel c of light pixel i for each unit of its radiance, in column
+// c * pixels + i.
+template <typename Scalar>
+using TransportRef = Eigen::Ref<Eigen::Array<Scalar, Eigen::Dynamic, Eigen::Dynamic>>;
+
 // What is not wanted is left empty, the material's zero.
 struct GradientWanted {
   bool normals = true, material = true, radiance = true;
@@ -50,6 +55,9 @@ class DifferentiableSum {
 
   Planes<Scalar> colours(const PlanesRef<Scalar>& normals) const;
 
+  // The colours as a product with any radiance: for many lights on one material.
+  void find_transport(const PlanesRef<Scalar>& normals, TransportRef<Scalar> result) const;
+
   // Of a function of the colours whose derivatives to them are `of_colours`.
   SumGradient<Scalar> gradient(const PlanesRef<Scalar>& normals, const PlanesRef<Scalar>& of_colours,
                                GradientWanted wanted = {}) const;
@@ -57,6 +65,8 @@ class DifferentiableSum {
  private:
   struct Block;
   struct LightShare;
+  template <typename Use>
+  void for_lit(std::size_t light, const Block& normals, const Use& use) const;
   void add_colours(std::size_t light, const Block& normals, Block& colours) const;
   void add_gradient(std::size_t light, const Block& normals, const Block& of_colours, GradientWanted wanted,
                     Block& of_normals, LightShare& of_light) const;

@@ -190,6 +190,36 @@ at::Tensor reflectance_maps(const at::Tensor& material, const at::Tensor& light,
   return ReflectanceMaps::apply(material.contiguous(), light.contiguous(), static_cast<std::int64_t>(map_size));
 }
 
+at::Tensor map_transport(const at::Tensor& material, int rows, int columns, int map_size) {
+  PARTWISE_CHECK(material.dim(), ==, 2);
+  PARTWISE_CHECK(material.size(1), ==, dsbrdf_size);
+  check_number(material, material);
+  PARTWISE_CHECK(map_size, >=, 8);
+  const at::Tensor each = material.detach().contiguous();
+  at::Tensor result;
+  with_scalar(material, [&]<typename Scalar>(Scalar) {
+    const auto grid = light_grid<Scalar>(rows, columns);
+    const DiskLookup<Scalar> lookup(map_size);
+    const Planes<Scalar> any = Planes<Scalar>::Zero(std::ssize(grid), 3);
+    result = at::empty({material.size(0), 3, std::ssize(grid), lookup.normals().rows()}, material.options());
+    for (std::int64_t i = 0; i < material.size(0); ++i) {
+      const DifferentiableSum<Scalar> sum(grid, coefficients<Scalar>(each, i), any);
+      sum.find_transport(lookup.normals(),
+                         Eigen::Map<Eigen::Array<Scalar, Eigen::Dynamic, Eigen::Dynamic>>(
+                             result[i].data_ptr<Scalar>(), lookup.normals().rows(), 3 * std::ssize(grid)));
+    }
+  });
+  return result;
+}
+
+at::Tensor transported_maps(const at::Tensor& transport, const at::Tensor& light) {
+  PARTWISE_CHECK(transport.dim(), ==, 4);
+  PARTWISE_CHECK(light.dim(), ==, 4);
+  PARTWISE_CHECK(light.size(1), ==, 3);
+  PARTWISE_CHECK(light.size(2) * light.size(3), ==, transport.size(2));
+  return at::matmul(light.reshape({light.size(0), 3, 1, -1}), transport).squeeze(2);
+}
+
 at::Tensor looked_up_images(const at::Tensor& normals, const at::Tensor& maps, int map_size) {
   PARTWISE_CHECK(maps.dim(), ==, 3);
   PARTWISE_CHECK(maps.size(1), ==, 3);

@@ -25,6 +25,13 @@ at::Tensor mapped_images(const at::Tensor& normals, const at::Tensor& material, 
                          int map_size = 64);
 
 at::Tensor reflectance_maps(const at::Tensor& material, const at::Tensor& light, int map_size = 64);
+
+// Where light changes and material does not: the maps are linear in light, and each row of `transport`, B x 3 x hw x T,
+// is what one of its pixels adds to them. It takes as long as one pass of reflectance_maps and 4 bytes an element (44
+// MB for 64 x 32 light and maps of 48); gradients go to light (B or 1 x 3 x h x w) alone.
+at::Tensor map_transport(const at::Tensor& material, int rows, int columns, int map_size);
+at::Tensor transported_maps(const at::Tensor& transport, const at::Tensor& light);
+
 at::Tensor looked_up_images(const at::Tensor& normals, const at::Tensor& maps, int map_size);
 
 }  // namespace partwise

@@ -103,6 +103,33 @@ TEST(RenderingLayer, MappedImagesAndTheirGradientsAreThoseOfLookupsInPlainTensor
   }
 }
 
+TEST(RenderingLayer, TransportedMapsAndTheirGradientsToLightAreThoseOfReflectanceMaps) {
+  for (const at::ScalarType type : {torch::kDouble, torch::kFloat}) {
+    const Batch batch(type);
+    const double tolerance = type == torch::kDouble ? 1e-12 : 1e-5;
+    const int size = 13;
+    const at::Tensor transport = map_transport(batch.material, 6, 12, size);
+    EXPECT_FALSE(transport.requires_grad());
+    const auto maps_and_gradient = [&](const at::Tensor& maps, const at::Tensor& light) {
+      (maps * torch::linspace(-1, 2, maps.numel(), type).view_as(maps)).sum().backward();
+      const at::Tensor gradient = light.grad().clone();
+      light.mutable_grad() = at::Tensor();
+      return std::pair(maps.detach(), gradient);
+    };
+    const auto expected = maps_and_gradient(reflectance_maps(batch.material, batch.light, size), batch.light),
+               found = maps_and_gradient(transported_maps(transport, batch.light), batch.light);
+    ASSERT_EQ(found.first.sizes(), expected.first.sizes());
+    EXPECT_LT(difference(found.first, expected.first), tolerance);
+    EXPECT_LT(difference(found.second, expected.second), tolerance);
+    // One light on both materials.
+    const at::Tensor one = batch.light.detach().narrow(0, 0, 1);
+    EXPECT_LT(difference(transported_maps(transport, one),
+                         reflectance_maps(batch.material, one.expand({2, -1, -1, -1}), size)),
+              tolerance);
+    EXPECT_THROW(transported_maps(transport, one.narrow(2, 0, 5)), CheckFailed);
+  }
+}
+
 // Which takes its texels from a table of the material, good to half a percent.
 TEST(RenderingLayer, MappedImagesAreThoseOfAReflectanceMap) {
   const Batch batch(torch::kFloat, 20, 20, 16);
