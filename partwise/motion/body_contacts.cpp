@@ -167,9 +167,10 @@ ContactSamples body_contacts(const ConfigurationSpace& space, const std::vector<
   const std::vector<Mesh> bodies = simplified(robot, settings.most_hull_vertices);
   const std::vector<Mesh> few = simplified(hulls, settings.most_hull_vertices);
 
-  const std::vector<Configuration> rotations = spread_rotations(space, settings.rotations);
-  const auto share = std::lround(static_cast<double>(settings.samples) / static_cast<double>(rotations.size()));
-  const int at_each = std::max(1, static_cast<int>(share));
+  const int wanted = std::clamp(settings.most_samples / std::max(count, 1), 1, settings.samples);
+  const std::vector<Configuration> rotations = spread_rotations(space, std::min(settings.rotations, wanted));
+  const auto at_each =
+      static_cast<int>(std::lround(static_cast<double>(wanted) / static_cast<double>(rotations.size())));
   std::vector<std::vector<Found>> found(rotations.size());
   SharedProgress shared(progress, "contacts", static_cast<int>(rotations.size()));
   tbb::parallel_for(std::size_t(0), rotations.size(), [&](std::size_t i) {

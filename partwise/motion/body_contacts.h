@@ -27,6 +27,7 @@ enum class ContactSource { contact, collision };  // on the surface of sums, or 
 struct BodyContactSettings {
   ContactSource source = ContactSource::contact;
   int samples = 300;            // an obstacle, before any is dropped; training takes about their square
+  int most_samples = 12000;     // of all obstacles, which have fewer each, at fewer rotations, if there are many
   int rotations = 100;          // among which they are shared out, and there among sums by their size
   int most_hull_vertices = 24;  // of a hull; 0: any
 };

@@ -101,6 +101,20 @@ TEST(BodyContacts, OfCollisionOverlap) {
   }
 }
 
+// Of few samples each obstacle gets as many, at fewer rotations if need be.
+TEST(BodyContacts, ManyObstaclesShareTheSamples) {
+  const std::vector<Mesh> bodies = {box_mesh({0, -0.1, -0.1}, {2, 0.1, 0.1})};
+  const std::vector<Mesh> obstacles = {box_mesh({-3, -1, -1}, {-2, 1, 1}), box_mesh({2, -1, -1}, {3, 1, 0.5})};
+  const ConfigurationSpace space(SpaceKind::se3, cube(6), body_radius(SpaceKind::se3, bodies));
+  for (const int most : {6, 60, 120}) {
+    const ContactSamples found =
+        body_contacts(space, bodies, obstacles, {0, 1},
+                      {.source = ContactSource::collision, .samples = 300, .most_samples = most, .rotations = 30});
+    EXPECT_EQ(found.size(), most);
+    EXPECT_EQ(std::ranges::count(found.obstacles, 0), most / 2);
+  }
+}
+
 // The largest hole between rotations, against what as many random ones leave.
 TEST(BodyContacts, SpreadRotationsEvenly) {
   const ConfigurationSpace space(SpaceKind::se3, cube(1), 1);

@@ -4,8 +4,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <limits>
 #include <mutex>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -15,6 +15,31 @@
 #include "partwise/motion/obstacle_boxes.h"
 
 namespace partwise {
+namespace {
+
+// Of each point to the nearest one of others.
+Eigen::VectorXd distances(const MotionPoints& points, const MotionPoints& others) {
+  Eigen::VectorXd result(points.rows());
+  for (Eigen::Index i = 0; i < points.rows(); ++i)
+    result[i] = (others.rowwise() - points.row(i)).rowwise().norm().minCoeff();
+  return result;
+}
+
+// At most `count` of the points, those nearest to others, in their order.
+MotionPoints nearest(const MotionPoints& points, const MotionPoints& others, int count) {
+  if (points.rows() <= count) return points;
+  const Eigen::VectorXd distance = distances(points, others);
+  std::vector<Eigen::Index> rows(static_cast<std::size_t>(points.rows()));
+  std::iota(rows.begin(), rows.end(), 0);
+  std::ranges::nth_element(rows, rows.begin() + count, [&](Eigen::Index a, Eigen::Index b) {
+    return std::pair(distance[a], a) < std::pair(distance[b], b);
+  });
+  rows.resize(static_cast<std::size_t>(count));
+  std::ranges::sort(rows);
+  return points(rows, Eigen::all);
+}
+
+}  // namespace
 
 struct MarginField::Parts {
   struct Late {
@@ -42,14 +67,14 @@ struct MarginField::Parts {
     return samples.points(rows_of(obstacles), Eigen::all);
   }
 
-  MarginClassifier trained(int positive, std::vector<int> negative, double width) const {
+  // The samples of one obstacle, then those of the others, of which only the nearest ones matter.
+  MarginClassifier trained(int positive, const std::vector<int>& negative, double width) const {
     constexpr double narrowest = 1e-3;  // share of the extent: touching obstacles have no gap, kernels need a width
-    negative.insert(negative.begin(), positive);
-    const MotionPoints points = points_of(negative);
+    const MotionPoints own = points_of({positive}), others = nearest(points_of(negative), own, settings.most_others);
+    MotionPoints points(own.rows() + others.rows(), own.cols());
+    points << own, others;
     const double extent = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
-    return {points,
-            static_cast<Eigen::Index>(rows[static_cast<std::size_t>(positive)].size()),
-            {.width = std::max(width, narrowest * extent), .cost = settings.cost}};
+    return {points, own.rows(), {.width = std::max(width, narrowest * extent), .cost = settings.cost}};
   }
 
   // Of those that never were neighbours, the smallest.
@@ -57,9 +82,7 @@ struct MarginField::Parts {
     const auto known = near.gaps.find(pair);
     if (known != near.gaps.end()) return known->second;
     const MotionPoints a = points_of({pair.first}), b = points_of({pair.second});
-    double least = std::numeric_limits<double>::infinity();
-    for (const auto& row : a.rowwise()) least = std::min(least, (b.rowwise() - row).rowwise().norm().minCoeff());
-    return least;
+    return distances(a, b).minCoeff();
   }
 
   const MarginClassifier& between(const ObstaclePair& pair) {

@@ -7,8 +7,9 @@
 // their two nearest obstacles by samples. Obstacles that are the two of any point are neighbours; the distances to
 // both, added, are in the median their gap; the farthest such point is an obstacle's reach.
 //
-//   one against the others  the obstacle's samples against those of its neighbours, a kernel `reach_width` times the
-//                           reach wide, so that it is still felt there; evaluated only within the reach
+//   one against the others  the obstacle's samples against those of its neighbours, at most `most_others` of them, the
+//                           nearest; a kernel `reach_width` times the reach wide, so that it is still felt there;
+//                           evaluated only within the reach
 //   one against one         the samples of the two, a kernel `gap_width` gaps wide. Neighbours are trained at once,
 //                           others when they are first asked for
 //
@@ -29,6 +30,7 @@ struct MarginFieldSettings {
   double gap_width = 1.5, reach_width = 0.5;
   double cost = 10;      // of a sample on the wrong side
   double density = 0.5;  // of samples (contact_samples.h); 0: all
+  int most_others = 1500;
   std::uint64_t seed = 0;
 };
 

@@ -86,9 +86,9 @@ Grid square_grid(int side) {
           contact_samples(hulls, numbers, 100)};
 }
 
-TEST(MarginField, NamesTheTwoNearest) {
-  const Grid grid = square_grid(5);
-  const MarginField field(grid.scene->space(), grid.contacts);
+// Of points where three obstacles are told apart clearly, the share at which the field names the two nearest in order.
+double share_named_right(const Grid& grid, const MarginFieldSettings& settings) {
+  const MarginField field(grid.scene->space(), grid.contacts, settings);
   int right = 0, asked = 0;
   for (int i = 0; i < 2000; ++i) {
     Draw draw(3, static_cast<std::uint64_t>(i), 0);
@@ -101,7 +101,20 @@ TEST(MarginField, NamesTheTwoNearest) {
     right += named[0] == near[0].obstacle && named[1] == near[1].obstacle;
   }
   EXPECT_GT(asked, 500);
-  EXPECT_GT(right, 0.9 * asked);
+  return static_cast<double>(right) / asked;
+}
+
+TEST(MarginField, NamesTheTwoNearest) { EXPECT_GT(share_named_right(square_grid(5), {}), 0.9); }
+
+// Farther ones decide little.
+TEST(MarginField, TheNearestSamplesOfOthersDecide) {
+  const Grid grid = square_grid(5);
+  const MarginFieldSettings all{.density = 0, .most_others = 100000}, few{.density = 0, .most_others = 80};
+  EXPECT_GT(share_named_right(grid, few), share_named_right(grid, all) - 0.05);
+  const ConfigurationSpace& space = grid.scene->space();
+  const int of_few = MarginField(space, grid.contacts, few).size().supports_against_others,
+            of_all = MarginField(space, grid.contacts, all).size().supports_against_others;
+  EXPECT_LT(of_few, of_all);
 }
 
 TEST(MarginField, TrainsNeighboursOnly) {
