@@ -1,9 +1,16 @@
-# Fails unless README.md holds, word for word, what stands between the [README] marks of decompose.cpp.
+# Fails unless README.md holds, word for word, what stands between the [README] marks of decompose.cpp, and
+# docs/decompose.md all of it without the marks.
 file(READ ${CMAKE_CURRENT_LIST_DIR}/decompose.cpp source)
 file(READ ${CMAKE_CURRENT_LIST_DIR}/../README.md readme)
+file(READ ${CMAKE_CURRENT_LIST_DIR}/../docs/decompose.md page)
 string(REGEX MATCH "// \\[README\\]\n(.*)\n  // \\[README\\]" found "${source}")
 string(REGEX REPLACE "(^|\n)  " "\\1" quotation "${CMAKE_MATCH_1}")
 string(FIND "${readme}" "${quotation}" place)
 if(NOT found OR place EQUAL -1)
   message(FATAL_ERROR "README.md does not quote examples/decompose.cpp as it is; it should read:\n${quotation}")
+endif()
+string(REPLACE "  // [README]\n" "" whole "${source}")
+string(FIND "${page}" "```cpp\n${whole}```" place)
+if(place EQUAL -1)
+  message(FATAL_ERROR "docs/decompose.md does not quote examples/decompose.cpp as it is")
 endif()
