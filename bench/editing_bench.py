@@ -2,7 +2,7 @@
 """The dissertation's Tables 3.1 and 3.2 for trained networks, on views, materials and lights that they have not seen. See
 bench/README.md.
 
-    editing_bench.py NETS [--count 500] [--refine] [--lines DIR] [--record]
+    editing_bench.py NETS [--rows ROW...] [--count 500] [--refine [ROW...]] [--lines DIR] [--record]
 
 NETS is a folder of editing_training.py; of its networks, those that are there are judged. Refinement takes seconds a picture:
 with --lines what is measured is kept in DIR, a file of JSON lines for each row, and a run that was stopped goes on from there.
@@ -38,12 +38,15 @@ def parse(words):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     add = parser.add_argument
     add("nets", type=Path, help="a folder of editing_training.py")
+    add("--rows", nargs="+", choices=ROWS, default=list(ROWS), metavar="ROW", help="of the tables: " + "; ".join(ROWS))
     add("--count", type=int, default=500, help="pictures")
-    add("--refine", action="store_true", help="refine what networks find as well")
+    add("--refine", nargs="*", choices=REFINED, metavar="ROW", help="refine what networks find as well, in these rows or all that can be")
     add("--lines", type=Path, metavar="DIR", help="keep what is measured, and go on from it")
     add("--tool", type=Path, default=BIN / "editing_errors")
     add("--record", action="store_true", help="append the result to bench/history/editing.jsonl")
-    return parser.parse_args(words)
+    options = parser.parse_args(words)
+    options.refine = list(REFINED) if options.refine == [] else options.refine or []
+    return options
 
 
 def measured(options, name, how):
@@ -85,9 +88,9 @@ def main(words):
     options = parse(words)
     found, published = {}, {}
     for name, (network, _, key, known) in ROWS.items():
-        if not (options.nets / network / "best.pt").exists():
+        if name not in options.rows or not (options.nets / network / "best.pt").exists():
             continue
-        refine = options.refine and name in REFINED
+        refine = name in options.refine
         pictures = measured(options, name, ["--refine"] if refine else [])
         found[name], published[name] = figures(pictures, "", key), known
         if refine:

@@ -29,9 +29,9 @@ const Choices<CageCoordinates>& coordinate_names() {
 }
 
 // The library says "cage" of what is a file here.
-CageDeformer deformer_of(const Options& options, const Mesh& mesh, const Mesh& cage) {
+CageDeformer deformer_of(const Options& options, const Mesh& mesh, const Mesh& cage, const Progress& progress) {
   try {
-    return naming_mesh(options.mesh, [&] { return CageDeformer(mesh.vertices, cage, options.coordinates); });
+    return naming_mesh(options.mesh, [&] { return CageDeformer(mesh.vertices, cage, options.coordinates, progress); });
   } catch (const InputError& error) {
     const std::string text = error.what();
     if (!text.starts_with("cage: ")) throw;
@@ -51,7 +51,8 @@ void deform_files(const Options& options, Run& run) {
   Mesh cage = run.stage("read", [&] { return read_mesh(options.cage); });
   Vertices moved = run.stage("read", [&] { return read_cage_moves(options.moves, cage); });
   const double radius = bounding_sphere(mesh).radius;
-  const CageDeformer deformer = run.stage("coordinates", [&] { return deformer_of(options, mesh, cage); });
+  const CageDeformer deformer =
+      run.stage("coordinates", [&] { return deformer_of(options, mesh, cage, run.progress); });
   const double identity = run.stage(
       "check", [&] { return (deformer.deformed(cage.vertices) - mesh.vertices).rowwise().norm().maxCoeff(); });
   const auto farthest = (moved - cage.vertices).rowwise().norm().maxCoeff();

@@ -47,7 +47,7 @@ void repair_file(const Options& options, Run& run) {
   run.report["radius"] = result.radius;
   std::string loss_text;
   if (intact) {
-    const RepairLoss loss = run.stage("compare", [&] { return repair_loss(result.mesh, *intact); });
+    const RepairLoss loss = run.stage("compare", [&] { return repair_loss(result.mesh, *intact, run.progress); });
     run.report["added"] = loss.added;
     run.report["lost"] = loss.lost;
     run.report["volume_added"] = loss.volume_added;

@@ -38,7 +38,8 @@ std::unique_ptr<CageDeformer> deformer_of(const py::object& given, const py::obj
   const Vertices points = points_in(given, "points");
   const SharedMesh closed = mesh_in(cage, "cage");
   const CageCoordinates chosen_kind = chosen("coordinates", kind, coordinates);
-  return long_call([&](const Progress&) { return std::make_unique<CageDeformer>(points, *closed, chosen_kind); });
+  return long_call(
+      [&](const Progress& progress) { return std::make_unique<CageDeformer>(points, *closed, chosen_kind, progress); });
 }
 
 py::array deformed_points(const CageDeformer& deformer, const py::object& cage_vertices) {
@@ -51,8 +52,8 @@ SharedMesh deformed_mesh(const py::object& given, const py::object& given_cage, 
   const SharedMesh mesh = mesh_in(given), cage = mesh_in(given_cage, "cage");
   const Vertices moved = points_in(cage_vertices, "cage_vertices");
   const CageCoordinates chosen_kind = chosen("coordinates", kind, coordinates);
-  return mesh_out(long_call([&](const Progress&) -> Mesh {
-    return {CageDeformer(mesh->vertices, *cage, chosen_kind).deformed(moved), mesh->faces};
+  return mesh_out(long_call([&](const Progress& progress) -> Mesh {
+    return {CageDeformer(mesh->vertices, *cage, chosen_kind, progress).deformed(moved), mesh->faces};
   }));
 }
 
@@ -161,7 +162,7 @@ void add_repair(py::module_& core) {
       "repair_loss",
       [](const py::object& repaired, const py::object& intact) {
         const SharedMesh ours = mesh_in(repaired, "repaired"), theirs = mesh_in(intact, "intact");
-        return long_call([&](const Progress&) { return repair_loss(*ours, *theirs); });
+        return long_call([&](const Progress& progress) { return repair_loss(*ours, *theirs, progress); });
       },
       py::arg("repaired"), py::arg("reference"), "What was lost and added; both meshes have to be watertight.");
 }

@@ -104,12 +104,14 @@ double stretch(const Point& u, const Point& v, const Point& u_now, const Point& 
 
 }  // namespace
 
-CageDeformer::CageDeformer(const Vertices& points, const Mesh& cage, CageCoordinates kind) : cage_(cage) {
+CageDeformer::CageDeformer(const Vertices& points, const Mesh& cage, CageCoordinates kind, const Progress& progress)
+    : cage_(cage) {
   check_cage(cage);
   const bool green = kind == CageCoordinates::green;
   vertex_weights_ = Eigen::MatrixXd::Zero(points.rows(), cage.vertices.rows());
   face_weights_ = Eigen::MatrixXd::Zero(green ? points.rows() : 0, green ? cage.faces.rows() : 0);
   std::vector<char> inside(static_cast<std::size_t>(points.rows()));
+  SharedProgress shared(progress, "coordinates", static_cast<int>(points.rows()));
   tbb::parallel_for(Eigen::Index{0}, points.rows(), [&](Eigen::Index i) {
     double solid_angle = 0;
     for (Eigen::Index f = 0; f < cage.faces.rows(); ++f) {
@@ -127,6 +129,7 @@ CageDeformer::CageDeformer(const Vertices& points, const Mesh& cage, CageCoordin
     }
     inside[static_cast<std::size_t>(i)] = std::abs(solid_angle / (4 * std::numbers::pi) - 1) < 1e-6;
     vertex_weights_.row(i) /= vertex_weights_.row(i).sum();
+    shared.add(1);
   });
   const auto first = std::find(inside.begin(), inside.end(), 0);
   if (first != inside.end()) {

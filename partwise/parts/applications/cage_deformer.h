@@ -22,6 +22,7 @@
 
 #include <Eigen/Core>
 
+#include "partwise/base/progress.h"
 #include "partwise/geometry/mesh.h"
 
 namespace partwise {
@@ -30,7 +31,8 @@ enum class CageCoordinates { green, mean_value };
 
 class CageDeformer {
  public:
-  CageDeformer(const Vertices& points, const Mesh& cage, CageCoordinates kind = CageCoordinates::green);
+  CageDeformer(const Vertices& points, const Mesh& cage, CageCoordinates kind = CageCoordinates::green,
+               const Progress& progress = {});
 
   // Where the points go when the cage's vertices go to `cage_vertices`. Errors: InputError "cage" for another number of
   // vertices.

@@ -144,6 +144,11 @@ TEST(CageDeformer, RefusesWhatItCannotDo) {
   EXPECT_THROW(deformer.deformed(Vertices::Zero(3, 3)), InputError);
 }
 
+TEST(CageDeformer, StopsWhenAsked) {
+  const Progress stopped{{}, [] { return true; }};
+  EXPECT_THROW(CageDeformer(Vertices::Zero(1, 3), dumbbell_cage(), CageCoordinates::green, stopped), Cancelled);
+}
+
 class CageMoves : public testing::Test {
  protected:
   Vertices read(const std::string& text) {

@@ -71,19 +71,21 @@ Repair repair(const Mesh& mesh, const RepairSettings& settings, const Progress& 
   return result;
 }
 
-RepairLoss repair_loss(const Mesh& repaired, const Mesh& intact) {
+RepairLoss repair_loss(const Mesh& repaired, const Mesh& intact, const Progress& progress) {
   if (!is_watertight(intact)) throw InputError("reference", "is not watertight", "give the intact mesh");
   if (!is_watertight(repaired)) throw InputError("repaired", "is not watertight", "give what repair made");
   const SurfaceQuery before(intact), after(repaired);
   const double radius = bounding_sphere(intact).radius;
   RepairLoss loss;
-  loss.added = farthest_point(
-                   repaired, [&](const Point& p) { return before.distance(p); }, precision * radius) /
-               radius;
-  loss.lost =
-      farthest_point(
-          intact, [&](const Point& p) { return after.contains(p) ? 0 : after.distance(p); }, precision * radius) /
-      radius;
+  const auto farthest = [&](const Mesh& surface, double done, const auto& distance) {
+    const auto asked = [&](const Point& p) {
+      progress("distances", done);
+      return distance(p);
+    };
+    return farthest_point(surface, asked, precision * radius) / radius;
+  };
+  loss.added = farthest(repaired, 0, [&](const Point& p) { return before.distance(p); });
+  loss.lost = farthest(intact, 0.5, [&](const Point& p) { return after.contains(p) ? 0 : after.distance(p); });
   const auto extent = [&](bool high) -> Point {
     return high ? Point(intact.vertices.colwise().maxCoeff().cwiseMax(repaired.vertices.colwise().maxCoeff()))
                 : Point(intact.vertices.colwise().minCoeff().cwiseMin(repaired.vertices.colwise().minCoeff()));
@@ -95,6 +97,7 @@ RepairLoss repair_loss(const Mesh& repaired, const Mesh& intact) {
     long both = 0, before = 0, after = 0;
   };
   std::vector<Counts> layers(static_cast<std::size_t>(count[2]));
+  SharedProgress shared(progress, "volumes", count[2]);
   tbb::parallel_for(0, count[2], [&](int k) {
     Counts& layer = layers[static_cast<std::size_t>(k)];
     for (int j = 0; j < count[1]; ++j)
@@ -105,6 +108,7 @@ RepairLoss repair_loss(const Mesh& repaired, const Mesh& intact) {
         layer.before += was;
         layer.after += is;
       }
+    shared.add(1);
   });
   Counts all;
   for (const Counts& layer : layers) all.both += layer.both, all.before += layer.before, all.after += layer.after;

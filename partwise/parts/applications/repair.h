@@ -49,6 +49,6 @@ struct RepairLoss {
   double volume_lost = 0;   // of the intact solid outside of the repaired one, likewise
 };
 
-RepairLoss repair_loss(const Mesh& repaired, const Mesh& intact);
+RepairLoss repair_loss(const Mesh& repaired, const Mesh& intact, const Progress& progress = {});
 
 }  // namespace partwise

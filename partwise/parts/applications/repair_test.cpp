@@ -49,6 +49,7 @@ TEST(Repair, LossIsWhatWasLost) {
   EXPECT_NEAR(lost.volume_lost, 0.25, 1e-9);
   EXPECT_EQ(lost.volume_added, 0);
   const RepairLoss added = repair_loss(large, small);
+  EXPECT_THROW(repair_loss(large, small, {{}, [] { return true; }}), Cancelled);
   EXPECT_NEAR(added.added, 1 / bounding_sphere(small).radius, 0.003);
   EXPECT_NEAR(added.volume_added, 1 / 3.0, 1e-9);
   EXPECT_LE(added.lost, 0.003);
