@@ -1,8 +1,7 @@
 // How well networks edit: the figures of the dissertation's Tables 3.1 and 3.2 on views that they have not seen.
 //
-//   editing_errors WEIGHTS VIEWS... [--count 500] [--first 0] [--given | --known-normals] [--parts] [--refine]
-//   [--spread]
-//                  [--materials test] [--lights NAME...] [--seed S]
+//   editing_errors WEIGHTS VIEWS... [--count 500] [--first 0] [--given | --known-normals] [--parts]
+//                  [--refine] [--spread] [--materials test] [--lights NAME...] [--seed S]
 //
 // A line of JSON a picture: "material", the squared difference of scaled coefficients, summed over the 108; "render",
 // the picture rendered anew; "transfer", the object in another material. With --refine "refined_render" and

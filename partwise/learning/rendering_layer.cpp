@@ -48,13 +48,18 @@ void check_normals(const at::Tensor& normals, std::int64_t images) {
   PARTWISE_CHECK(normals.size(1), ==, 3);
 }
 
-void check_material_and_light(const at::Tensor& material, const at::Tensor& light) {
+void check_material(const at::Tensor& material) {
   PARTWISE_CHECK(material.dim(), ==, 2);
   PARTWISE_CHECK(material.size(1), ==, dsbrdf_size);
+  check_number(material, material);
+}
+
+void check_material_and_light(const at::Tensor& material, const at::Tensor& light) {
+  check_material(material);
   PARTWISE_CHECK(light.dim(), ==, 4);
   PARTWISE_CHECK(light.size(0), ==, material.size(0));
   PARTWISE_CHECK(light.size(1), ==, 3);
-  for (const at::Tensor& each : {material, light}) check_number(each, material);
+  check_number(light, material);
 }
 
 // Tensors like those of material and light, for what is wanted of their derivatives.
@@ -191,9 +196,7 @@ at::Tensor reflectance_maps(const at::Tensor& material, const at::Tensor& light,
 }
 
 at::Tensor map_transport(const at::Tensor& material, int rows, int columns, int map_size) {
-  PARTWISE_CHECK(material.dim(), ==, 2);
-  PARTWISE_CHECK(material.size(1), ==, dsbrdf_size);
-  check_number(material, material);
+  check_material(material);
   PARTWISE_CHECK(map_size, >=, 8);
   const at::Tensor each = material.detach().contiguous();
   at::Tensor result;
