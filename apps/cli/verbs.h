@@ -22,6 +22,7 @@ extern const Verb unfold_verb;
 extern const Verb material_verb;
 extern const Verb render_verb;
 extern const Verb dataset_verb;
+extern const Verb rooms_verb;
 extern const Verb train_verb;
 extern const Verb edit_verb;
 extern const Verb normals_verb;

@@ -2,6 +2,8 @@
 kept for tests and for validation, and the data sets of views."""
 
 import json
+import re
+import zipfile
 from pathlib import Path
 
 from .training import run
@@ -30,6 +32,29 @@ def chosen_shapes():
     only = {which: {name: {"ids": ids} for name, ids in shapes_of.items()} for which, shapes_of in (("validation", VALIDATION), ("test", TEST))}
     return {"training": {name: {"except": kept_back(name)} if kept_back(name) else {} for name in ARCHIVES},
             "cars": {name: {"categories": ["Vehicles"], "except": kept_back(name)} for name in ("zero", "by", "kator", "scopia")}} | only
+
+
+LEAST = {"width": 30, "height": 40}  # centimetres; what is smaller does not stand on floors
+INDOORS = ["Living room", "Kitchen", "Bedroom", "Office", "Bathroom"]
+
+
+def indoor_ids(archive):
+    """What stands in the rooms of flats, of a catalogue, in its order."""
+    text = zipfile.ZipFile(archive).read("PluginFurnitureCatalog.properties").decode("latin-1")
+    fields = {(name, int(number)): value.strip() for name, number, value in re.findall(r"^(id|category|width|height)#(\d+)=(.*)$", text, re.MULTILINE)}
+    numbers = sorted({number for _, number in fields})
+    return [fields["id", i].split("#")[-1] for i in numbers
+            if fields["category", i] in INDOORS and all(float(fields[name, i]) >= least for name, least in LEAST.items())]
+
+
+def indoor_shapes(options):
+    """Of each catalogue the first of every ten is kept for tests and the sixth for validation."""
+    all_of = {name: indoor_ids(options.furniture / ARCHIVES[name]) for name in ("zero", "by", "kator", "scopia")}
+
+    def of(kept):
+        return {name: {"ids": [each for i, each in enumerate(ids) if kept(i % 10)]} for name, ids in all_of.items()}
+
+    return {"test": of(lambda i: i == 0), "validation": of(lambda i: i == 5), "training": of(lambda i: i not in (0, 5))}
 
 
 def make_views(options, sets):

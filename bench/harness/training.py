@@ -10,7 +10,7 @@ from pathlib import Path
 from .process import BIN
 
 
-def parse(doc, networks, furniture, words):
+def parse(doc, networks, furniture, words, batch=16):
     """`networks`: name to what is known of each; "start" is the name of one that goes before, or a file of weights."""
     parser = argparse.ArgumentParser(description=doc, formatter_class=argparse.RawDescriptionHelpFormatter)
     add = parser.add_argument
@@ -19,7 +19,7 @@ def parse(doc, networks, furniture, words):
     add("--furniture", type=Path, default=furniture, help="folder of .sh3f archives")
     add("--effort", type=float, default=1, help="times as many steps as written here")
     add("--start", type=Path, help="weights that each starts from, instead of those of another one of OUT or random ones")
-    add("--batch", type=int, default=16, help="pictures a step")
+    add("--batch", type=int, default=batch, help="pictures a step")
     add("--processes", type=int, default=os.cpu_count(), help="that share each batch, a thread each; a divisor of it")
     add("--seed", type=int, default=0)
     add("--program", type=Path, default=BIN / "partwise")

@@ -40,6 +40,11 @@ class JsonFields {
   }
   bool has(const std::string& name) const { return object_.contains(name); }
 
+  // The fields of an object within this one, which must outlive them.
+  JsonFields object(const std::string& name, const nlohmann::json& value) const {
+    return {file_, place_of(name), value, page_};
+  }
+
   // Null where it is missing.
   const nlohmann::json* find(const std::string& name) {
     known_.insert(name);

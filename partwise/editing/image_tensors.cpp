@@ -30,10 +30,12 @@ at::Tensor cropped(const Image& image, int x, int y, int side) {
   return result;
 }
 
-at::Tensor resized(const at::Tensor& squares, std::int64_t side) {
-  if (squares.size(3) == side) return squares;
-  if (squares.size(3) > side) return at::adaptive_avg_pool2d(squares, {side, side});
-  return at::upsample_bilinear2d(squares, {side, side}, /*align_corners=*/false);
+at::Tensor scaled(const at::Tensor& images, std::int64_t rows, std::int64_t columns) {
+  if (images.size(2) == rows && images.size(3) == columns) return images;
+  if (images.size(3) > columns) return at::adaptive_avg_pool2d(images, {rows, columns});
+  return at::upsample_bilinear2d(images, {rows, columns}, /*align_corners=*/false);
 }
+
+at::Tensor resized(const at::Tensor& squares, std::int64_t side) { return scaled(squares, side, side); }
 
 }  // namespace partwise

@@ -14,7 +14,8 @@ Image image_of(const at::Tensor& planes);  // of C x h x w floats
 // 1 x C x side x side: the square whose upper left pixel is (x, y), zero beyond the image.
 at::Tensor cropped(const Image& image, int x, int y, int side);
 
-// Of squares B x C x s x s: means of pixels where they become smaller, else bilinear.
-at::Tensor resized(const at::Tensor& squares, std::int64_t side);
+// Of B x C x h x w: means of pixels where they become smaller, else bilinear. Both sides alike, or nearly so.
+at::Tensor scaled(const at::Tensor& images, std::int64_t rows, std::int64_t columns);
+at::Tensor resized(const at::Tensor& squares, std::int64_t side);  // B x C x s x s
 
 }  // namespace partwise

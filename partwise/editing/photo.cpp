@@ -145,11 +145,17 @@ Image found_object(const std::filesystem::path& path, const Photo& photo) {
   return mask;
 }
 
+Image read_codes(const std::filesystem::path& path) {
+  const std::string bytes = read_bytes(path);
+  return is_jpeg(bytes) ? decode_plain_jpeg(path.string(), bytes) : decode_plain_png(path.string(), bytes);
+}
+
 }  // namespace
 
+Image read_shown(const std::filesystem::path& path) { return colours(read_codes(path)); }
+
 Photo read_photo(const std::filesystem::path& path, const std::vector<std::filesystem::path>& masks) {
-  const std::string bytes = read_bytes(path);
-  const Image file = is_jpeg(bytes) ? decode_plain_jpeg(path.string(), bytes) : decode_plain_png(path.string(), bytes);
+  const Image file = read_codes(path);
   Photo photo;
   photo.shown = colours(file);
   photo.alpha = has_transparency(file) ? channel(file, file.channels - 1) : Image(file.width, file.height, 1, 1);

@@ -24,6 +24,9 @@ struct Photo {
 
 Photo read_photo(const std::filesystem::path& path, const std::vector<std::filesystem::path>& masks);
 
+// The colours alone, of a picture that is looked at whole: 3 channels, 0 to 1. What is transparent counts as any other.
+Image read_shown(const std::filesystem::path& path);
+
 inline constexpr float plainness = 0.04f;  // of a channel
 
 // The square about the object that networks look at: the object with a margin, at most `largest_share` of the square.

@@ -8,16 +8,11 @@
 #include "partwise/appearance/material/material_files.h"
 #include "partwise/base/error.h"
 #include "partwise/editing/editing_networks.h"
+#include "partwise/editing/training_parts.h"
 #include "partwise/learning/training_fields.h"
 
 namespace partwise {
 namespace {
-
-std::vector<std::filesystem::path> folders(JsonFields& fields, const char* name, const std::filesystem::path& base) {
-  std::vector<std::filesystem::path> result;
-  for (const std::string& each : fields.texts(name)) result.push_back(base / each);
-  return result;
-}
 
 std::vector<DsbrdfCoefficients> take_materials(JsonFields& fields, const std::filesystem::path& base) {
   std::vector<std::string> names;
@@ -47,19 +42,26 @@ std::vector<EnvironmentLight> take_lights(JsonFields& fields, const std::filesys
   return result;
 }
 
-EditingWeights take_weights(JsonFields& fields) {
+}  // namespace
+
+EditingWeights take_weights(JsonFields& stage) {
   EditingWeights weights;
   for (const auto& [name, weight] : {std::pair{"normal", &weights.normal},
                                      {"material", &weights.material},
                                      {"light", &weights.light},
                                      {"pixel", &weights.pixel},
                                      {"perceptual", &weights.perceptual}}) {
-    *weight = fields.number(name, *weight, 0, 1e6);
+    *weight = stage.number(name, *weight, 0, 1e6);
   }
   return weights;
 }
 
-}  // namespace
+std::vector<std::filesystem::path> take_folders(JsonFields& fields, const char* name,
+                                                const std::filesystem::path& base) {
+  std::vector<std::filesystem::path> result;
+  for (const std::string& each : fields.texts(name)) result.push_back(base / each);
+  return result;
+}
 
 SampledTraining take_sampled_training(JsonFields& fields, const std::filesystem::path& path) {
   const std::filesystem::path base = path.parent_path();
@@ -81,8 +83,9 @@ SampledTraining take_sampled_training(JsonFields& fields, const std::filesystem:
   result.task.layer_map = fields.whole("layer_map", result.task.layer_map, 8, 512);
   result.task.perceptual_side = fields.whole("perceptual_side", result.task.perceptual_side, 8, result.size);
   result.task.validation_batches = fields.whole("validation_batches", 8, 0, 100000);
-  result.views = folders(fields, "views", base);
-  result.validation_views = fields.has("validation_views") ? folders(fields, "validation_views", base) : result.views;
+  result.views = take_folders(fields, "views", base);
+  result.validation_views =
+      fields.has("validation_views") ? take_folders(fields, "validation_views", base) : result.views;
   result.materials = take_materials(fields, base);
   result.lights = take_lights(fields, base);
   if (fields.has("start")) result.start = base / fields.text("start");

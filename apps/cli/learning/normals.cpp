@@ -18,8 +18,8 @@
 namespace partwise::cli {
 namespace {
 
-enum class Model { single };
-const Choices<Model> models = {{"single", Model::single}};
+enum class Model { single, scene };
+const Choices<Model> models = {{"single", Model::single}, {"scene", Model::scene}};
 const Choices<NormalBits> depths = {{"8", NormalBits::eight}, {"16", NormalBits::sixteen}};
 
 struct Options {
@@ -29,7 +29,25 @@ struct Options {
 };
 
 std::filesystem::path weights_file(const Options& options) {
-  return options.weights.empty() ? shared_file("models/networks/editing.pt") : std::filesystem::path(options.weights);
+  if (!options.weights.empty()) return options.weights;
+  return shared_file(options.model == Model::scene ? "models/networks/scenes.pt" : "models/networks/editing.pt");
+}
+
+Image object_normals(const Options& options, const NormalPredictor& predictor, Run& run) {
+  const Photo photo = run.stage("read", [&] {
+    return read_photo(options.photo, options.mask.empty() ? std::vector<std::filesystem::path>{}
+                                                          : std::vector<std::filesystem::path>{options.mask});
+  });
+  return run.stage("look", [&] { return photo_normals(predictor, photo); });
+}
+
+Image whole_normals(const Options& options, const NormalPredictor& predictor, Run& run) {
+  if (!options.mask.empty())
+    throw InputError("--mask", "is of one object, the model of scenes looks at the whole", "leave one of them out");
+  if (predictor.settings().architecture != NormalArchitecture::u)
+    throw InputError(options.weights, "reads single objects", "give weights of a network for scenes");
+  const Image shown = run.stage("read", [&] { return read_shown(options.photo); });
+  return run.stage("look", [&] { return scene_normals(predictor, shown); });
 }
 
 void find_normals(const Options& options, Run& run) {
@@ -37,11 +55,8 @@ void find_normals(const Options& options, Run& run) {
   if (!options.mask.empty()) run.outputs.add_input("--mask", options.mask);
   run.outputs.add("-o", options.output, {".png", ".exr"});
   const NormalPredictor predictor = run.stage("weights", [&] { return read_normal_predictor(weights_file(options)); });
-  const Photo photo = run.stage("read", [&] {
-    return read_photo(options.photo, options.mask.empty() ? std::vector<std::filesystem::path>{}
-                                                          : std::vector<std::filesystem::path>{options.mask});
-  });
-  const Image normals = run.stage("look", [&] { return photo_normals(predictor, photo); });
+  const Image normals =
+      options.model == Model::scene ? whole_normals(options, predictor, run) : object_normals(options, predictor, run);
   run.stage("write", [&] { write_normals(run.outputs.staged("-o"), normals, options.bits); });
   std::size_t pixels = 0;
   for (const float known : known_normals(normals).values) pixels += known > 0 ? 1 : 0;
@@ -56,11 +71,14 @@ void find_normals(const Options& options, Run& run) {
 
 Action add(CLI::App& command) {
   const auto options = std::make_shared<Options>();
-  command.add_option("PHOTO", options->photo, "A picture of an object (.png, .jpg)")->required()->type_name("");
+  command.add_option("PHOTO", options->photo, "A picture of an object or a room (.png, .jpg)")
+      ->required()
+      ->type_name("");
   add_file(command, "--mask", options->mask,
            "White where the object is, of the photo's size (.png). Left out: what is not transparent, or not of the "
            "background's plain colour");
-  add_choice(command, "--model", options->model, models, "single: one object [single]");
+  add_choice(command, "--model", options->model, models,
+             "single: one object; scene: all that is seen, of a room [single]");
   add_choice(command, "--bits", options->bits, depths, "Of a .png, a channel [16]");
   add_file(command, "--weights", options->weights, "A network that partwise train made [that which ships]");
   add_file(command, "-o", options->output, "The normals (.png, .exr)")->required();
@@ -77,7 +95,8 @@ const Verb normals_verb = {
         "What is not object is the zero vector, middle grey in a .png.",
     .example =
         "  partwise normals car.png -o normals.png\n"
-        "  partwise normals chair.jpg --mask chair.mask.png -o normals.exr",
+        "  partwise normals chair.jpg --mask chair.mask.png -o normals.exr\n"
+        "  partwise normals room.jpg --model scene -o normals.png",
     .add = add,
 };
 

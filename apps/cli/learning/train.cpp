@@ -18,6 +18,7 @@
 #include "partwise/editing/editing_training.h"
 #include "partwise/learning/training_file.h"
 #include "partwise/normals/prediction/normal_training.h"
+#include "partwise/normals/prediction/scene_training.h"
 #include "verbs.h"
 
 namespace partwise::cli {
@@ -51,8 +52,9 @@ Training read_config(const Options& options, const Run& run) {
   if (network == "normals") return prepared(options, read_normal_training(options.config, run.seed), train_normals);
   if (network == "editing" || network == "encoder_decoder")
     return prepared(options, read_editing_training(options.config, run.seed), train_editing);
+  if (network == "scenes") return prepared(options, read_scene_training(options.config, run.seed), train_scenes);
   throw InputError(options.config, fmt::format("network \"{}\" is none that is known", network),
-                   "write editing, encoder_decoder or normals");
+                   "write editing, encoder_decoder, normals or scenes");
 }
 
 // Every step asks for the same large tensors: what is freed stays with the process, where giving it back and having it

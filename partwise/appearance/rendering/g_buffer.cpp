@@ -126,6 +126,11 @@ struct RenderScene::Rays {
   }
 };
 
+Eigen::Vector3d seen_point(const GBuffer& seen, const Camera& camera, std::size_t sample) {
+  const CameraRay ray = sample_ray(camera, seen.size, sample);
+  return ray.origin + static_cast<double>(seen.depths[sample]) * ray.direction;
+}
+
 RenderScene::RenderScene(std::span<const RenderMesh> meshes) : rays_(std::make_unique<Rays>(meshes)) {}
 RenderScene::~RenderScene() = default;
 RenderScene::RenderScene(RenderScene&&) noexcept = default;
@@ -180,11 +185,9 @@ void RenderScene::lit(const Camera& camera, const GBuffer& seen, std::size_t sam
                       Eigen::ArrayXf& visible) const {
   constexpr float lift = 1e-4f;  // of the scene's radius, off the surface
   const Rays& rays = *rays_;
-  const CameraRay ray = sample_ray(camera, seen.size, sample);
   const Eigen::Matrix3f to_scene = camera.axes.transpose().cast<float>();
   const Vector normal = to_scene * seen.normals[sample];
-  const Vector point =
-      rays.unit.point(ray.origin + static_cast<double>(seen.depths[sample]) * ray.direction) + lift * normal;
+  const Vector point = rays.unit.point(seen_point(seen, camera, sample)) + lift * normal;
   visible.setZero(light.size());
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);

@@ -46,6 +46,9 @@ struct GBuffer {
   double foreground() const;                // share of the samples that see something
 };
 
+// Where a sample that sees something sees it, in model space.
+Eigen::Vector3d seen_point(const GBuffer& seen, const Camera& camera, std::size_t sample);
+
 // Meshes as rays see them; built once, for any number of views.
 class RenderScene {
  public:

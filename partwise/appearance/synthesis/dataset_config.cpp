@@ -13,103 +13,73 @@
 #include "partwise/appearance/synthesis/dataset_fields.h"
 #include "partwise/appearance/synthesis/file_patterns.h"
 #include "partwise/base/error.h"
-#include "partwise/base/json_fields.h"
 
 namespace partwise {
 namespace {
 
 using nlohmann::json;
 
-class ConfigReader {
+// Shapes, materials and lights: patterns are expanded, and what is named must be there.
+class SourceReader {
  public:
-  // Of the object at `place` of a file, which names files relative to `folder`.
-  ConfigReader(std::filesystem::path path, std::string place, std::filesystem::path folder)
-      : path_(std::move(path)), place_(std::move(place)) {
-    config_.folder = std::move(folder);
-  }
+  SourceReader(JsonFields& fields, std::filesystem::path folder) : fields_(fields), folder_(std::move(folder)) {}
 
-  DatasetConfig read(const json& whole) {
-    JsonFields fields = object("", whole);
-    read_shapes(fields);
-    config_.parts = take_part_settings(fields, config_.parts.rule);
-    expect_labels(fields);
-    config_.crease_degrees = fields.number("crease", config_.crease_degrees, 0, 180);
-    config_.materials = materials(fields);
-    config_.lights = lights(fields);
-    read_rendering(fields);
-    read_counts(fields);
-    fields.refuse_others();
-    return std::move(config_);
+  DatasetSources read() {
+    read_shapes();
+    result_.materials = materials();
+    result_.lights = lights();
+    return std::move(result_);
   }
 
  private:
-  JsonFields object(const std::string& place, const json& value) const {
-    const char* dot = place_.empty() || place.empty() ? "" : ".";
-    return {path_.string(), place_ + dot + place, value, "docs/dataset.md"};
-  }
-
-  std::vector<std::string> files(const JsonFields& fields, const std::string& place, const std::string& pattern) const {
-    std::vector<std::string> found = files_matching(config_.folder, pattern);
+  std::vector<std::string> files(const std::string& place, const std::string& pattern) const {
+    std::vector<std::string> found = files_matching(folder_, pattern);
     if (found.empty()) {
       const bool one = !is_pattern(pattern);
-      fields.refuse(
-          place, fmt::format("\"{}\" {}", pattern, one ? "does not exist" : "matches no file"),
-          fmt::format("name files relative to {}", config_.folder.empty() ? "this folder" : config_.folder.string()));
+      fields_.refuse(place, fmt::format("\"{}\" {}", pattern, one ? "does not exist" : "matches no file"),
+                     fmt::format("name files relative to {}", folder_.empty() ? "this folder" : folder_.string()));
     }
     return found;
   }
 
-  void read_shapes(JsonFields& fields) {
-    const json& shapes = fields.need("shapes");
-    if (!shapes.is_array() || shapes.empty()) fields.refuse("shapes", "is no list of shapes", "write [\"...\"]");
+  void read_shapes() {
+    const json& shapes = fields_.need("shapes");
+    if (!shapes.is_array() || shapes.empty()) fields_.refuse("shapes", "is no list of shapes", "write [\"...\"]");
     for (std::size_t i = 0; i < shapes.size(); ++i) {
       const std::string place = fmt::format("shapes[{}]", i);
       if (shapes[i].is_string()) {
-        for (const std::string& file : files(fields, place, shapes[i].get<std::string>())) add_shapes(file);
+        for (const std::string& file : files(place, shapes[i].get<std::string>())) add_shapes(file);
       } else if (shapes[i].is_object() && shapes[i].contains("mesh")) {
-        add_labelled(place, shapes[i]);
+        add_labelled(fields_.object(place, shapes[i]));
       } else {
-        add_models(place, shapes[i]);
+        add_models(fields_.object(place, shapes[i]));
       }
     }
   }
 
   // A mesh with its parts.
-  void add_labelled(const std::string& place, const json& value) {
-    JsonFields fields = object(place, value);
+  void add_labelled(JsonFields fields) {
     for (const char* name : {"mesh", "labels"}) {
       const std::string file = fields.text(name);
       std::error_code error;
-      if (!std::filesystem::exists(config_.folder / file, error)) {
+      if (!std::filesystem::exists(folder_ / file, error)) {
         fields.refuse(name, fmt::format("\"{}\" does not exist", file), "name one file, which is no pattern here");
       }
     }
-    config_.shapes.push_back({fields.text("mesh"), "", fields.text("labels")});
+    result_.shapes.push_back({fields.text("mesh"), "", fields.text("labels")});
     fields.refuse_others();
   }
 
-  void expect_labels(const JsonFields& fields) const {
-    const bool wanted = config_.parts.rule == PartRule::labels;
-    for (const ShapeFile& shape : config_.shapes) {
-      if (wanted == !shape.labels.empty()) continue;
-      fields.refuse("parts",
-                    wanted ? fmt::format("are labels, and {} has none", shape.file.string())
-                           : fmt::format("are not labels, and {} has some", shape.file.string()),
-                    wanted ? "write {\"mesh\": ..., \"labels\": ...} for each shape" : "write \"parts\": \"labels\"");
-    }
-  }
-
   void add_shapes(const std::string& file) {
-    if (!is_archive(file)) return config_.shapes.push_back({file});
-    const ModelArchive archive(config_.folder / file);
-    for (const CatalogueModel& model : archive.models()) config_.shapes.push_back({file, model.id});
+    if (!is_archive(file)) return result_.shapes.push_back({file});
+    const ModelArchive archive(folder_ / file);
+    for (const CatalogueModel& model : archive.models()) result_.shapes.push_back({file, model.id});
   }
 
   // Of an archive those that are named, or of some categories, or all; less some.
-  void add_models(const std::string& place, const json& value) {
-    JsonFields fields = object(place, value);
+  void add_models(JsonFields fields) {
     const std::string file = fields.text("archive");
-    const ModelArchive archive(config_.folder / file);
+    const ModelArchive archive(folder_ / file);
     const auto listed = [&](const char* name) {
       return fields.has(name) ? fields.texts(name) : std::vector<std::string>();
     };
@@ -124,83 +94,93 @@ class ConfigReader {
                       fmt::format("\"{}\" is one", archive.models().front().category));
       }
     }
-    const std::size_t before = config_.shapes.size();
+    const std::size_t before = result_.shapes.size();
     const auto has = [](const std::vector<std::string>& names, const std::string& name) {
       return std::ranges::find(names, name) != names.end();
     };
     for (const CatalogueModel& model : archive.models()) {
       const bool wanted = ids.empty() ? categories.empty() || has(categories, model.category) : has(ids, model.id);
-      if (wanted && !has(except, model.id)) config_.shapes.push_back({file, model.id});
+      if (wanted && !has(except, model.id)) result_.shapes.push_back({file, model.id});
     }
-    if (config_.shapes.size() == before) fields.refuse("except", "leaves no model", "name fewer");
+    if (result_.shapes.size() == before) fields.refuse("except", "leaves no model", "name fewer");
   }
 
   // A list of what ships, by names, and of patterns of files.
-  std::vector<std::string> names_or_files(JsonFields& fields, const std::string& place,
-                                          bool (*is_file)(const std::string&), const std::vector<std::string>& shipped,
-                                          const std::string& wrong, const std::string& remedy) const {
+  std::vector<std::string> names_or_files(const std::string& place, bool (*is_file)(const std::string&),
+                                          const std::vector<std::string>& shipped, const std::string& wrong,
+                                          const std::string& remedy) const {
     std::vector<std::string> result;
-    for (const std::string& name : fields.texts(place)) {
+    for (const std::string& name : fields_.texts(place)) {
       if (is_file(name)) {
-        std::ranges::copy(files(fields, place, name), std::back_inserter(result));
+        std::ranges::copy(files(place, name), std::back_inserter(result));
       } else if (std::ranges::binary_search(shipped, name)) {
         result.push_back(name);
       } else {
-        fields.refuse(place, fmt::format("\"{}\" {}", name, wrong), remedy);
+        fields_.refuse(place, fmt::format("\"{}\" {}", name, wrong), remedy);
       }
     }
     return result;
   }
 
-  std::vector<std::string> materials(JsonFields& fields) const {
+  std::vector<std::string> materials() const {
     std::vector<std::string> shipped = shipped_materials();
-    const json& given = fields.need("materials");
+    const json& given = fields_.need("materials");
     if (given == "all") return shipped;
     if (given == "training") return training_materials();
     if (given == "test") return test_materials();
-    return names_or_files(fields, "materials", is_material_file, shipped, "is no shipped material and no file",
+    return names_or_files("materials", is_material_file, shipped, "is no shipped material and no file",
                           "choose names that partwise material list gives, all, training or test");
   }
 
-  std::vector<std::string> lights(JsonFields& fields) const {
+  std::vector<std::string> lights() const {
     std::vector<std::string> shipped = shipped_lights();
-    if (fields.need("lights") == "all") return shipped;
-    return names_or_files(fields, "lights", is_light_file, shipped, "is no shipped light and no .exr or .hdr file",
+    if (fields_.need("lights") == "all") return shipped;
+    return names_or_files("lights", is_light_file, shipped, "is no shipped light and no .exr or .hdr file",
                           fmt::format("take some of {}, or all", fmt::join(shipped, ", ")));
   }
 
-  void read_rendering(JsonFields& fields) {
-    std::tie(config_.light_width, config_.light_height) =
-        fields.two_sizes("light_size", {config_.light_width, config_.light_height});
-    std::tie(config_.size.width, config_.size.height) =
-        fields.two_sizes("size", {config_.size.width, config_.size.height});
-    config_.size.samples = fields.whole("samples", config_.size.samples, 1, 256);
-    config_.path = fields.choice<RenderPath>(
-        "path", config_.path, {{"exact", RenderPath::exact}, {"reflectance_map", RenderPath::reflectance_map}});
-    config_.map_size = fields.whole("map_size", config_.map_size, 8, 2048);
-    config_.view.elevation = fields.number("elevation", config_.view.elevation, -90, 90);
-    config_.view.share = fields.number("share", config_.view.share, 0.01, 0.9);
-    config_.format =
-        fields.choice<ImageFormat>("format", config_.format, {{"exr", ImageFormat::exr}, {"png", ImageFormat::png}});
-  }
-
-  void read_counts(JsonFields& fields) {
-    config_.viewpoints = fields.whole("viewpoints", config_.viewpoints, 1, 100000);
-    config_.views = fields.whole("views", std::min(config_.views, config_.viewpoints), 1, 100000);
-    if (config_.views > config_.viewpoints) {
-      fields.refuse("views", fmt::format("is more than the {} viewpoints", config_.viewpoints), "give fewer");
-    }
-    config_.seed = static_cast<std::uint64_t>(fields.whole("seed", 0, 0, 2147483647));
-    fields.need("images");
-    config_.images = fields.whole("images", 0, 1, 2000000000);
-    config_.images_per_shard = fields.whole("images_per_shard", config_.images_per_shard, 1, 1000000);
-    if (fields.has("output")) config_.output = config_.folder / fields.text("output");
-  }
-
-  std::filesystem::path path_;
-  std::string place_;
-  DatasetConfig config_;
+  JsonFields& fields_;
+  std::filesystem::path folder_;
+  DatasetSources result_;
 };
+
+void expect_labels(const JsonFields& fields, const DatasetConfig& config) {
+  const bool wanted = config.parts.rule == PartRule::labels;
+  for (const ShapeFile& shape : config.shapes) {
+    if (wanted == !shape.labels.empty()) continue;
+    fields.refuse("parts",
+                  wanted ? fmt::format("are labels, and {} has none", shape.file.string())
+                         : fmt::format("are not labels, and {} has some", shape.file.string()),
+                  wanted ? "write {\"mesh\": ..., \"labels\": ...} for each shape" : "write \"parts\": \"labels\"");
+  }
+}
+
+void read_rendering(JsonFields& fields, DatasetConfig& config) {
+  std::tie(config.light_width, config.light_height) =
+      fields.two_sizes("light_size", {config.light_width, config.light_height});
+  std::tie(config.size.width, config.size.height) = fields.two_sizes("size", {config.size.width, config.size.height});
+  config.size.samples = fields.whole("samples", config.size.samples, 1, 256);
+  config.path = fields.choice<RenderPath>(
+      "path", config.path, {{"exact", RenderPath::exact}, {"reflectance_map", RenderPath::reflectance_map}});
+  config.map_size = fields.whole("map_size", config.map_size, 8, 2048);
+  config.view.elevation = fields.number("elevation", config.view.elevation, -90, 90);
+  config.view.share = fields.number("share", config.view.share, 0.01, 0.9);
+  config.format =
+      fields.choice<ImageFormat>("format", config.format, {{"exr", ImageFormat::exr}, {"png", ImageFormat::png}});
+}
+
+void read_counts(JsonFields& fields, DatasetConfig& config) {
+  config.viewpoints = fields.whole("viewpoints", config.viewpoints, 1, 100000);
+  config.views = fields.whole("views", std::min(config.views, config.viewpoints), 1, 100000);
+  if (config.views > config.viewpoints) {
+    fields.refuse("views", fmt::format("is more than the {} viewpoints", config.viewpoints), "give fewer");
+  }
+  config.seed = static_cast<std::uint64_t>(fields.whole("seed", 0, 0, 2147483647));
+  fields.need("images");
+  config.images = fields.whole("images", 0, 1, 2000000000);
+  config.images_per_shard = fields.whole("images_per_shard", config.images_per_shard, 1, 1000000);
+  if (fields.has("output")) config.output = config.folder / fields.text("output");
+}
 
 }  // namespace
 
@@ -208,9 +188,23 @@ DatasetConfig read_dataset_config(const std::filesystem::path& path) {
   return dataset_config_at(read_json(path), path, "", path.parent_path());
 }
 
+DatasetSources take_sources(JsonFields& fields, const std::filesystem::path& folder) {
+  return SourceReader(fields, folder).read();
+}
+
 DatasetConfig dataset_config_at(const json& object, const std::filesystem::path& file, const std::string& place,
                                 const std::filesystem::path& folder) {
-  return ConfigReader(file, place, folder).read(object);
+  JsonFields fields(file.string(), place, object, "docs/dataset.md");
+  DatasetConfig config;
+  config.folder = folder;
+  static_cast<DatasetSources&>(config) = take_sources(fields, folder);
+  config.parts = take_part_settings(fields, config.parts.rule);
+  expect_labels(fields, config);
+  config.crease_degrees = fields.number("crease", config.crease_degrees, 0, 180);
+  read_rendering(fields, config);
+  read_counts(fields, config);
+  fields.refuse_others();
+  return config;
 }
 
 }  // namespace partwise

@@ -18,13 +18,17 @@ namespace partwise {
 
 enum class ImageFormat { exr, png };
 
-struct DatasetConfig {
-  std::filesystem::path folder;   // where the files lie that it names
-  std::vector<ShapeFile> shapes;  // relative to it
-  PartSettings parts;
-  double crease_degrees = 40;
+// What images are made of. Files are named relative to a folder.
+struct DatasetSources {
+  std::vector<ShapeFile> shapes;
   std::vector<std::string> materials;  // shipped ones by name, or files
   std::vector<std::string> lights;     // shipped ones by name, or files
+};
+
+struct DatasetConfig : DatasetSources {
+  std::filesystem::path folder;  // where the files lie that it names
+  PartSettings parts;
+  double crease_degrees = 40;
   int light_width = 128, light_height = 64;
   RasterSize size{128, 128, 4};
   RenderPath path = RenderPath::reflectance_map;

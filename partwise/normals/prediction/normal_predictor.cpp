@@ -9,6 +9,7 @@
 #include "partwise/base/error.h"
 #include "partwise/editing/editing_networks.h"
 #include "partwise/learning/network_blocks.h"
+#include "partwise/normals/prediction/scene_networks.h"
 
 namespace partwise {
 namespace {
@@ -47,8 +48,11 @@ at::Tensor NormalPredictor::operator()(const at::Tensor& pictures) const {
 
 const NormalPredictorSettings& NormalPredictor::settings() const { return network_->settings; }
 
-torch::nn::Module& NormalPredictor::module() const {
-  return std::visit([](const auto& network) -> torch::nn::Module& { return *network.module(); }, network_->of);
+torch::nn::Module& NormalPredictor::module() const { return *shared_module(); }
+
+std::shared_ptr<torch::nn::Module> NormalPredictor::shared_module() const {
+  return std::visit([](const auto& network) -> std::shared_ptr<torch::nn::Module> { return network.module(); },
+                    network_->of);
 }
 
 WeightsFile NormalPredictor::weights() const {
@@ -60,8 +64,9 @@ WeightsFile NormalPredictor::weights() const {
 }
 
 NormalPredictor read_normal_predictor(const std::filesystem::path& path) {
-  if (read_weights_header(path).kind == editing_kind)
-    return NormalPredictor(read_editing_networks(path).normal_network());
+  const std::string found = read_weights_header(path).kind;
+  if (found == editing_kind) return NormalPredictor(read_editing_networks(path).normal_network());
+  if (found == SceneNetworks::kind) return read_scene_networks(path).normals();
   const auto json = nlohmann::json::parse(read_weights_settings(path, kind));
   NormalPredictorSettings settings;
   settings.architecture = json.at("architecture") == u_name ? NormalArchitecture::u : NormalArchitecture::multi_branch;
@@ -77,7 +82,9 @@ NormalPredictor read_normal_predictor(const std::filesystem::path& path) {
 void read_normal_weights(const std::filesystem::path& path, const NormalPredictor& predictor) {
   const NormalPredictor other = read_normal_predictor(path);
   const NormalPredictorSettings &found = other.settings(), &wanted = predictor.settings();
-  if (found.architecture != wanted.architecture || found.channels != wanted.channels || found.size != wanted.size)
+  const bool any_size = wanted.architecture == NormalArchitecture::u;
+  if (found.architecture != wanted.architecture || found.channels != wanted.channels ||
+      (found.size != wanted.size && !any_size))
     throw InputError(path.string(), "is of a network of another architecture, size or width",
                      "give weights of the same network");
   const at::NoGradGuard no_gradient;

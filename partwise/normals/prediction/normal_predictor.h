@@ -36,6 +36,7 @@ class NormalPredictor {
 
   const NormalPredictorSettings& settings() const;
   torch::nn::Module& module() const;
+  std::shared_ptr<torch::nn::Module> shared_module() const;  // to be part of another
   WeightsFile weights() const;
 
  private:
@@ -43,10 +44,10 @@ class NormalPredictor {
   std::shared_ptr<const Network> network_;
 };
 
-// Of a weights file of such a network, or of the networks of editing: then that of their normals.
+// Of a weights file of such a network, or of the networks of editing or of scenes: then that of their normals.
 NormalPredictor read_normal_predictor(const std::filesystem::path& path);
 
-// The same into one that is there already, whose settings must be those of the file.
+// The same into one that is there already, of the same architecture and width, and, where it matters, size.
 void read_normal_weights(const std::filesystem::path& path, const NormalPredictor& predictor);
 
 }  // namespace partwise

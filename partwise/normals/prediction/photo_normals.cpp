@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "partwise/base/error.h"
 #include "partwise/editing/image_tensors.h"
 #include "partwise/learning/network_blocks.h"
 
@@ -32,6 +33,13 @@ at::Tensor grown(at::Tensor normals) {
   return normals;
 }
 
+// With empty rows and columns about it, to what the network takes.
+at::Tensor padded(const at::Tensor& picture) {
+  const std::int64_t rows = whole_blocks(picture.size(2)) - picture.size(2),
+                     columns = whole_blocks(picture.size(3)) - picture.size(3);
+  return at::constant_pad_nd(picture, {columns / 2, columns - columns / 2, rows / 2, rows - rows / 2});
+}
+
 }  // namespace
 
 Image photo_normals(const NormalPredictor& predictor, const Photo& photo) {
@@ -55,6 +63,20 @@ Image photo_normals(const NormalPredictor& predictor, const Photo& photo) {
     }
   }
   return result;
+}
+
+Image scene_normals(const NormalPredictor& predictor, const Image& shown) {
+  PARTWISE_CHECK(shown.channels, ==, 3);
+  PARTWISE_CHECK(predictor.settings().architecture == NormalArchitecture::u, ==, true);
+  const at::NoGradGuard no_gradient;
+  const double scale = static_cast<double>(predictor.settings().size) / std::max(shown.width, shown.height);
+  const auto reduced = [&](int side) { return std::max<std::int64_t>(1, std::lround(side * scale)); };
+  const std::int64_t rows = reduced(shown.height), columns = reduced(shown.width);
+  const at::Tensor colours = scaled(planes_of(shown).unsqueeze(0), rows, columns);
+  const at::Tensor picture = padded(at::cat({colours, at::ones({1, 1, rows, columns})}, 1));
+  const std::int64_t above = (picture.size(2) - rows) / 2, left = (picture.size(3) - columns) / 2;
+  const at::Tensor found = predictor(picture).narrow(2, above, rows).narrow(3, left, columns);
+  return image_of(unit_vectors(scaled(found, shown.height, shown.width))[0]);
 }
 
 }  // namespace partwise

@@ -6,7 +6,10 @@
 #include <torch/utils.h>
 
 #include <cmath>
+#include <tuple>
+#include <utility>
 
+#include "partwise/base/error.h"
 #include "partwise/base/shared_files.h"
 #include "partwise/editing/image_tensors.h"
 #include "partwise/editing/test_editing.h"
@@ -65,6 +68,34 @@ TEST(PhotoNormals, AreThoseOfTheNetwork) {
   const at::Tensor mask = planes_of(photo.regions[0]).unsqueeze(0);
   const at::Tensor found = predictor(at::cat({planes_of(photo.shown).unsqueeze(0) * mask, mask}, 1));
   EXPECT_LT((planes_of(photo_normals(predictor, photo)) - found[0]).abs().max().item<double>(), 1e-5);
+}
+
+// A picture that is as large as the network's: what it finds, with empty rows about it.
+TEST(SceneNormals, AreThoseOfTheNetwork) {
+  torch::manual_seed(1);
+  const NormalPredictor predictor(NormalPredictorSettings{.size = 96});
+  predictor.module().eval();
+  Image shown(96, 72, 3);
+  for (std::size_t i = 0; i < shown.values.size(); ++i) shown.values[i] = static_cast<float>(i * 7 % 31) / 31;
+  const at::NoGradGuard no_gradient;
+  const at::Tensor picture = at::cat({planes_of(shown), at::ones({1, 72, 96})}).unsqueeze(0);
+  const at::Tensor found = predictor(at::constant_pad_nd(picture, {0, 0, 12, 12})).narrow(2, 12, 72);
+  EXPECT_LT((planes_of(scene_normals(predictor, shown)) - found[0]).abs().max().item<double>(), 1e-5);
+}
+
+TEST(SceneNormals, OfAnySizeAreUnitVectors) {
+  const NormalPredictor predictor = network();
+  for (const auto& [width, height] : {std::pair{40, 30}, {333, 250}, {90, 400}, {1, 7}}) {
+    const Image normals = scene_normals(predictor, Image(width, height, 3, 0.4f));
+    ASSERT_EQ(normals.width, width);
+    ASSERT_EQ(normals.height, height);
+    for (std::size_t i = 0; i < normals.values.size(); i += 3)
+      ASSERT_NEAR(std::hypot(normals.values[i], normals.values[i + 1], normals.values[i + 2]), 1, 1e-4);
+  }
+  EXPECT_THROW(scene_normals(predictor, Image(8, 8, 1)), CheckFailed);
+  const NormalPredictor square(
+      NormalPredictorSettings{.architecture = NormalArchitecture::multi_branch, .channels = 32});
+  EXPECT_THROW(scene_normals(square, Image(8, 8, 3)), CheckFailed);
 }
 
 // Pictures of shipped models: what ships tells left from right and up from down.

@@ -51,6 +51,10 @@ struct UNetwork::Blocks : torch::nn::Module {
   std::array<torch::nn::Sequential, depth> down{nullptr, nullptr, nullptr, nullptr, nullptr}, up = down;
 };
 
+std::int64_t whole_blocks(std::int64_t size) {
+  return (size + largest_divisor - 1) / largest_divisor * largest_divisor;
+}
+
 UNetwork::UNetwork(const UNetworkSettings& settings) : blocks_(std::make_shared<Blocks>(settings)) {}
 
 at::Tensor UNetwork::operator()(const at::Tensor& maps) const {

@@ -13,6 +13,7 @@
 
 #include <ATen/core/Tensor.h>
 
+#include <cstdint>
 #include <memory>
 
 namespace torch::nn {
@@ -25,6 +26,9 @@ struct UNetworkSettings {
   int in = 4, out = 3;  // channels
   int channels = 16;    // at the full size; below it 1 1/2, 3, 6 and 6 times as many
 };
+
+// The least size that it takes, of one at least as large.
+std::int64_t whole_blocks(std::int64_t size);
 
 class UNetwork {
  public:

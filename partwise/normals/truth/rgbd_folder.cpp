@@ -105,10 +105,12 @@ Frames redwood_frames(const Path& folder, const Path& colour_folder) {
   };
   std::map<std::string, Path> colours;
   for (const Path& colour : pictures_in(colour_folder)) colours.emplace(frame_of(colour), colour);
+  Path intrinsics = folder / "intrinsics.txt";
+  if (!std::filesystem::is_regular_file(intrinsics)) intrinsics.clear();
   Frames frames;
   for (const Path& depth : pictures_in(folder / "depth")) {
     const auto colour = colours.find(frame_of(depth));
-    if (colour != colours.end()) frames.push_back({RgbdFormat::redwood, colour->second, depth});
+    if (colour != colours.end()) frames.push_back({RgbdFormat::redwood, colour->second, depth, intrinsics});
   }
   return frames;
 }

@@ -3,7 +3,8 @@
 //   SUN RGB-D  image/, depth/ and intrinsics.txt, one frame a folder
 //   TUM        rgb.txt and depth.txt, which name files and their times; freiburg1, 2 or 3 in the folder's name tells
 //              the camera
-//   Redwood    depth/ beside color/, image/ or rgb/; a pair has the same name up to the first hyphen
+//   Redwood    depth/ beside color/, image/ or rgb/; a pair has the same name up to the first hyphen; an intrinsics.txt
+//              beside them is the camera of all, where there is one
 //   NYU, raw   d-TIME-....pgm and r-TIME-....ppm
 //   pairs      NYU_depth.pgm and NYU_color.ppm, SUN_depth.png and SUN_color.jpg, TUM_... and Redwood_... likewise
 //

@@ -82,6 +82,14 @@ TEST_F(RgbdFolder, RedwoodPairsByNumber) {
                           "color/00003-000047.jpg depth/00003-000033.png"));
 }
 
+TEST_F(RgbdFolder, RedwoodsCameraMayLieBesideItsFolders) {
+  put("depth/1.png");
+  put("color/1.png");
+  EXPECT_TRUE(find_rgbd_frames(at_)[0].intrinsics.empty());
+  put("intrinsics.txt");
+  EXPECT_EQ(find_rgbd_frames(at_)[0].intrinsics, at_ / "intrinsics.txt");
+}
+
 TEST_F(RgbdFolder, NyuPairsByTheNearestTime) {
   put("d-1294886360.238178-2738420418.pgm");
   put("d-1294886361.238178-2798420418.pgm");  // the colour for it was dropped
