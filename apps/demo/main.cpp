@@ -17,6 +17,7 @@
 #ifdef PARTWISE_DEMO_LEARNING
 #include "edits.h"
 #include "normals.h"
+#include "scenes.h"
 #endif
 #include "heap.h"
 #include "materials.h"
@@ -184,6 +185,10 @@ void run(const std::filesystem::path& folder) {
   const demo::NormalsStory normals = demo::tell_normals(looked_at);
   add("normals", "Normals", normals_chapter(normals));
   page.story.push_back({"normals", "Shape from a photo", normals.pictures[1]});
+  show("looking at rooms");
+  const std::vector<demo::WornModel> furniture = {shelf.worn("Chair"), shelf.worn("Table"), shelf.worn("Rocking horse"),
+                                                  shelf.worn("Dog"), shelf.worn("Jar")};
+  add("scenes", "Rooms", scenes_chapter(demo::tell_scenes(furniture)));
 #endif
   show("finding ways");
   const demo::MotionStory motion = demo::tell_motion();

@@ -42,8 +42,6 @@ Image object_normals(const Options& options, const NormalPredictor& predictor, R
 }
 
 Image whole_normals(const Options& options, const NormalPredictor& predictor, Run& run) {
-  if (!options.mask.empty())
-    throw InputError("--mask", "is of one object, the model of scenes looks at the whole", "leave one of them out");
   if (predictor.settings().architecture != NormalArchitecture::u)
     throw InputError(options.weights, "reads single objects", "give weights of a network for scenes");
   const Image shown = run.stage("read", [&] { return read_shown(options.photo); });
@@ -51,6 +49,8 @@ Image whole_normals(const Options& options, const NormalPredictor& predictor, Ru
 }
 
 void find_normals(const Options& options, Run& run) {
+  if (!options.mask.empty() && options.model == Model::scene)
+    throw UsageError("--mask is of one object, and --model scene looks at the whole; leave one of them out");
   run.outputs.add_input("PHOTO", options.photo);
   if (!options.mask.empty()) run.outputs.add_input("--mask", options.mask);
   run.outputs.add("-o", options.output, {".png", ".exr"});
