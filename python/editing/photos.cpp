@@ -81,6 +81,18 @@ bool is_path(const py::handle& given) { return py::isinstance<py::str>(given) ||
 
 }  // namespace
 
+Image shown_in_whole(const py::object& given) {
+  if (is_path(given)) {
+    const std::filesystem::path file = py::str(given).cast<std::string>();
+    const py::gil_scoped_release released;
+    return read_shown(file);
+  }
+  Image image = shown_in(given, "photo");
+  if (image.channels != 3)
+    throw InputError("photo", fmt::format("has {} channels", image.channels), "give one that is h x w x 3");
+  return image;
+}
+
 Photo photo_in(const py::object& given, const py::object& masks) {
   py::sequence list = py::list();
   if (!masks.is_none()) list = py::sequence(masks);

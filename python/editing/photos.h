@@ -14,4 +14,7 @@ namespace py = pybind11;
 // Errors: those of read_photo; InputError for an array without masks and transparency.
 Photo photo_in(const py::object& given, const py::object& masks);
 
+// A picture that is looked at whole: a file, or an array of values as they are shown, h x w x 3.
+Image shown_in_whole(const py::object& given);
+
 }  // namespace partwise::python

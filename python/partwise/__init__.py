@@ -68,4 +68,4 @@ from ._core import (
     write_nets as write_nets,
     write_normals as write_normals,
 )
-from .editing import edit as edit, photo_normals as photo_normals
+from .editing import edit as edit, photo_normals as photo_normals, scene_normals as scene_normals

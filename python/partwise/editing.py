@@ -36,6 +36,16 @@ def photo_normals(photo, *, mask=None, weights=None):
     return _module("photo_normals").photo_normals(photo, None if mask is None else [mask], weights)
 
 
+def scene_normals(photo, *, weights=None):
+    """The normals of all that a photo of a room shows (docs/normals.md): h x w x 3 float32 in camera space, unit vectors (+x
+    right, +y up, +z towards the camera).
+
+    photo: a .png or .jpg; or an array h x w x 3 as shown, uint8 or 0 to 1.
+    weights: a network that `partwise train` made for scenes; left out, that which ships.
+    """
+    return _module("scene_normals").scene_normals(photo, weights)
+
+
 def _module(function):
     try:
         from . import _editing

@@ -72,6 +72,16 @@ def test_normals_of_arrays_are_those_of_files(folder):
     assert (pw.photo_normals(np.dstack([photo, mask])) == of_files).all()
 
 
+def test_normals_of_scenes_are_the_programs(folder):
+    run(folder, "normals", "photo.png", "--model", "scene", "-o", "a.png")
+    normals = pw.scene_normals(folder / "photo.png")
+    pw.write_normals(folder / "b.png", normals)
+    same_bytes(folder, "a.png", "b.png")
+    assert np.allclose(np.linalg.norm(normals, axis=2), 1, atol=1e-4)
+    photo = np.rint(255 * photo_and_mask()[0]).astype(np.uint8)
+    assert (pw.scene_normals(photo) == normals).all()
+
+
 def test_calls_leave_nothing():
     """Fewer than elsewhere, as each reads the network; of a larger photo, one array of which would show."""
     photo = np.dstack([np.full((64, 64, 3), 0.5), np.pad(np.ones((32, 32)), 16)])
@@ -80,6 +90,8 @@ def test_calls_leave_nothing():
 
 WRONG = {
     "channels of normals": (lambda: pw.photo_normals(np.zeros((4, 4))), "photo: has 1 channels"),
+    "channels of a scene": (lambda: pw.scene_normals(np.zeros((4, 4, 4))), "photo: has 4 channels"),
+    "weights of a scene": (lambda: pw.scene_normals(np.zeros((4, 4, 3)), weights="nowhere.pt"), "nowhere.pt: "),
     "no object": (lambda: pw.photo_normals(np.zeros((4, 4, 3))), "photo: has no transparency"),
     "NaN": (lambda: pw.photo_normals(np.full((4, 4, 3), np.nan)), "photo[0]: holds nan"),
     "mask of normals": (lambda: pw.photo_normals(np.zeros((4, 4, 3)), mask=np.ones((3, 4))), "masks[0]: is 3 x 4 x 1"),
