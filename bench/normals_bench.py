@@ -40,7 +40,7 @@ def measured(options, names, parts):
     views = options.nets / "views" / ("test_parts" if parts else "test")
     done = expect([options.tool, views, "--weights", *files, "--count", options.count, "--map-size", options.map_size,
                    *(["--parts"] if parts else [])], 36000)
-    return dict(zip(names, map(json.loads, done.output.splitlines()), strict=True))
+    return {name: json.loads(line) | {"weights": name} for name, line in zip(names, done.output.splitlines(), strict=True)}
 
 
 def show(title, found):

@@ -37,7 +37,7 @@ def measured(options):
     names = [name for name in NETWORKS if (options.nets / name / "best.pt").exists()]
     weights = [word for name in names for word in ("--weights", options.nets / name / "best.pt")]
     done = expect([options.tool, options.nets / "rooms" / "test", *weights, "--count", options.count], 36000)
-    return dict(zip(["sensor", *names], map(json.loads, done.output.splitlines()), strict=True))
+    return {name: json.loads(line) | {"weights": name} for name, line in zip(["sensor", *names], done.output.splitlines(), strict=True)}
 
 
 def row(name, figures):

@@ -35,7 +35,7 @@ def of_docstring(text):
 def test_names():
     helpers = {"HasMesh"}
     assert sorted(PUBLIC) == sorted(STUB.keys() - helpers)
-    exported = {name for name in dir(pw) if not name.startswith("_")} - {"editing", "edit", "photo_normals"}
+    exported = {name for name in dir(pw) if not name.startswith("_")} - {"editing", "edit", "photo_normals", "scene_normals"}
     assert exported == set(PUBLIC)
 
 
@@ -61,7 +61,7 @@ def test_classes(name):
     assert all(getattr(real, member).__doc__ for member in written)
 
 
-@pytest.mark.parametrize("name", ["edit", "photo_normals"])
+@pytest.mark.parametrize("name", ["edit", "photo_normals", "scene_normals"])
 def test_what_needs_libtorch(name):
     stub = ast.parse((PACKAGE / "editing.pyi").read_text())
     function = next(node for node in stub.body if isinstance(node, ast.FunctionDef) and node.name == name)
