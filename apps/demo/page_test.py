@@ -180,7 +180,7 @@ class Page(unittest.TestCase):
         self.assertEqual((images["outlines"], images["heap"], images["motion"]), (11, 4, 2))
         self.assertEqual((images["cage"], images["repair"], images["nets"]), (5, 4, 4))
         if "edits" in images:  # built with libtorch; edits, what was found, swaps, parts; four a photo
-            self.assertEqual((images["edits"], images["normals"]), (6 + 6 + 6 + 16 + 4, 4 * 3))
+            self.assertEqual((images["edits"], images["normals"], images["scenes"]), (6 + 6 + 6 + 16 + 4, 4 * 3, 5 * 3))
         self.check_surfaces(seen["rows"]["surfaces"][:16])
         self.check_motion(seen["rows"]["motion"])
 
