@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "bench/edit_cases.h"
+#include "bench/normal_figures.h"
 #include "bench/picture_difference.h"
 #include "bench/tool.h"
 #include "partwise/appearance/material/material_files.h"
@@ -34,12 +35,6 @@ struct Options {
   std::vector<std::string> weights;
   bench::JudgedPictures pictures;
 };
-
-ordered_json json_of(const NormalMeasure& measure) {
-  const NormalErrors errors = measure.errors();
-  return {{"pixels", errors.pixels}, {"mean", errors.mean},         {"median", errors.median},
-          {"rmse", errors.rmse},     {"below", errors.share_below}, {"cosine", errors.cosine}};
-}
 
 // One network's figures so far.
 class Judge {
@@ -61,7 +56,7 @@ class Judge {
                                    {"edges", &detail_.edges},
                                    {"curved", &detail_.curved},
                                    {"smooth", &detail_.smooth}})
-      json[name] = json_of(*of);
+      json[name] = bench::normal_figures(*of);
     for (const auto& [name, mean] : means_) json[name] = mean.sum / mean.count;
     return json;
   }

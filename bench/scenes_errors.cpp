@@ -13,14 +13,16 @@
 #include <ATen/TensorOperators.h>
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <filesystem>
 #include <iostream>
-#include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
+#include <numbers>
 #include <string>
 #include <vector>
 
+#include "bench/normal_figures.h"
 #include "bench/picture_difference.h"
 #include "bench/tool.h"
 #include "partwise/appearance/material/material_files.h"
@@ -40,18 +42,12 @@ namespace {
 using namespace partwise;
 using nlohmann::ordered_json;
 
-constexpr float wrong_from = 11.25f;  // degrees
+constexpr double wrong_from = 11.25;  // degrees
 
 struct Options {
   std::vector<std::string> rooms, weights;
   int count = 200;
 };
-
-ordered_json json_of(const NormalMeasure& measure) {
-  const NormalErrors errors = measure.errors();
-  return {{"pixels", errors.pixels}, {"mean", errors.mean},         {"median", errors.median},
-          {"rmse", errors.rmse},     {"below", errors.share_below}, {"cosine", errors.cosine}};
-}
 
 struct Scene {
   Image shown, exact, measured;
@@ -67,9 +63,9 @@ Scene scene_of(const RgbdFiles& files) {
   scene.measured = normals_from_depth(frame.depth, frame.camera);
   const int width = scene.exact.width, height = scene.exact.height;
   scene.missing = scene.wrong = scene.right = Mask(width, height, 1);
-  const double least = std::cos(static_cast<double>(wrong_from) * 3.14159265358979 / 180);
+  const double least = std::cos(wrong_from * std::numbers::pi / 180);
   const RoomTruth truth = read_room_truth(files.colour);
-  const std::vector<int> which = read_room_materials(files.colour);
+  const std::vector<int> which = read_room_materials(files.colour, width, height);
   scene.materials = at::zeros({1, default_components, height, width});
   scene.seen = at::zeros({1, 1, height, width});
   for (std::size_t i = 0; i < which.size(); ++i) {
@@ -117,7 +113,7 @@ class Judge {
                                    {"missing", &missing_},
                                    {"wrong", &wrong_},
                                    {"right", &right_}})
-      json[name] = json_of(*of);
+      json[name] = bench::normal_figures(*of);
     json["l2"] = l2_ / pictures_;
     json["ssim"] = ssim_ / pictures_;
     return json;

@@ -53,8 +53,8 @@ struct Reader {
 
 ScenesStory tell_scenes(std::span<const WornModel> models) {
   std::array readers{
-      Reader{"Found, by normals alone", read_normal_predictor(shared_file("models/networks/scenes_standalone.pt"))},
-      Reader{"Found, by the picture too", read_normal_predictor(shared_file("models/networks/scenes.pt"))}};
+      Reader{"Found, by normals alone", read_scene_predictor(shared_file("models/networks/scenes_standalone.pt"))},
+      Reader{"Found, by the picture too", read_scene_predictor(shared_file("models/networks/scenes.pt"))}};
   std::vector<Furniture> furniture;
   std::ranges::transform(models, std::back_inserter(furniture), furniture_of);
   std::vector<DsbrdfCoefficients> materials;

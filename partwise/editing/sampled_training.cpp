@@ -8,7 +8,6 @@
 #include "partwise/appearance/material/material_files.h"
 #include "partwise/base/error.h"
 #include "partwise/editing/editing_networks.h"
-#include "partwise/editing/training_parts.h"
 #include "partwise/learning/training_fields.h"
 
 namespace partwise {

@@ -31,6 +31,11 @@ struct SampledTraining {
 // All fields but "network" and those of a network of its own. Files are named relative to the configuration's folder.
 SampledTraining take_sampled_training(JsonFields& fields, const std::filesystem::path& path);
 
+// Of a stage: the weights of the terms of its loss. Of a field: folders, named relative to `base`.
+EditingWeights take_weights(JsonFields& stage);
+std::vector<std::filesystem::path> take_folders(JsonFields& fields, const char* name,
+                                                const std::filesystem::path& base);
+
 // `make` is asked for the task once, after random numbers were seeded.
 using SampledTaskMaker =
     std::function<std::unique_ptr<TrainingTask>(const EditSamples& training, const EditSamples& validation)>;

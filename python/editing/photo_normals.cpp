@@ -8,7 +8,6 @@
 
 #include "arrays.h"
 #include "long_call.h"
-#include "partwise/base/error.h"
 #include "partwise/base/shared_files.h"
 #include "partwise/normals/prediction/photo_normals.h"
 #include "photos.h"
@@ -27,11 +26,7 @@ py::array normals(const py::object& given, const py::object& masks,
 py::array normals_of_scene(const py::object& given, const std::optional<std::filesystem::path>& weights) {
   const Image shown = shown_in_whole(given);
   return image_out(long_call([&](const Progress&) {
-    const std::filesystem::path file = weights.value_or(shared_file("models/networks/scenes.pt"));
-    const NormalPredictor network = read_normal_predictor(file);
-    if (network.settings().architecture != NormalArchitecture::u)
-      throw InputError(file.string(), "reads single objects", "give weights of a network for scenes");
-    return scene_normals(network, shown);
+    return scene_normals(read_scene_predictor(weights.value_or(shared_file("models/networks/scenes.pt"))), shown);
   }));
 }
 

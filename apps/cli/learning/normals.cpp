@@ -42,8 +42,6 @@ Image object_normals(const Options& options, const NormalPredictor& predictor, R
 }
 
 Image whole_normals(const Options& options, const NormalPredictor& predictor, Run& run) {
-  if (predictor.settings().architecture != NormalArchitecture::u)
-    throw InputError(options.weights, "reads single objects", "give weights of a network for scenes");
   const Image shown = run.stage("read", [&] { return read_shown(options.photo); });
   return run.stage("look", [&] { return scene_normals(predictor, shown); });
 }
@@ -54,7 +52,10 @@ void find_normals(const Options& options, Run& run) {
   run.outputs.add_input("PHOTO", options.photo);
   if (!options.mask.empty()) run.outputs.add_input("--mask", options.mask);
   run.outputs.add("-o", options.output, {".png", ".exr"});
-  const NormalPredictor predictor = run.stage("weights", [&] { return read_normal_predictor(weights_file(options)); });
+  const NormalPredictor predictor = run.stage("weights", [&] {
+    return options.model == Model::scene ? read_scene_predictor(weights_file(options))
+                                         : read_normal_predictor(weights_file(options));
+  });
   const Image normals =
       options.model == Model::scene ? whole_normals(options, predictor, run) : object_normals(options, predictor, run);
   run.stage("write", [&] { write_normals(run.outputs.staged("-o"), normals, options.bits); });

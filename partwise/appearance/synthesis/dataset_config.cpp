@@ -144,9 +144,9 @@ class SourceReader {
   DatasetSources result_;
 };
 
-void expect_labels(const JsonFields& fields, const DatasetConfig& config) {
-  const bool wanted = config.parts.rule == PartRule::labels;
-  for (const ShapeFile& shape : config.shapes) {
+void expect_labels(const JsonFields& fields, const std::vector<ShapeFile>& shapes, PartRule rule) {
+  const bool wanted = rule == PartRule::labels;
+  for (const ShapeFile& shape : shapes) {
     if (wanted == !shape.labels.empty()) continue;
     fields.refuse("parts",
                   wanted ? fmt::format("are labels, and {} has none", shape.file.string())
@@ -192,14 +192,19 @@ DatasetSources take_sources(JsonFields& fields, const std::filesystem::path& fol
   return SourceReader(fields, folder).read();
 }
 
+PartSettings take_parts_of(JsonFields& fields, const std::vector<ShapeFile>& shapes) {
+  const PartSettings parts = take_part_settings(fields, PartSettings().rule);
+  expect_labels(fields, shapes, parts.rule);
+  return parts;
+}
+
 DatasetConfig dataset_config_at(const json& object, const std::filesystem::path& file, const std::string& place,
                                 const std::filesystem::path& folder) {
   JsonFields fields(file.string(), place, object, "docs/dataset.md");
   DatasetConfig config;
   config.folder = folder;
   static_cast<DatasetSources&>(config) = take_sources(fields, folder);
-  config.parts = take_part_settings(fields, config.parts.rule);
-  expect_labels(fields, config);
+  config.parts = take_parts_of(fields, config.shapes);
   config.crease_degrees = fields.number("crease", config.crease_degrees, 0, 180);
   read_rendering(fields, config);
   read_counts(fields, config);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "partwise/appearance/synthesis/dataset_config.h"
 #include "partwise/base/json_fields.h"
@@ -15,5 +16,8 @@ DatasetConfig dataset_config_at(const nlohmann::json& object, const std::filesys
 
 // "shapes", "materials" and "lights", whose files are named relative to `folder`.
 DatasetSources take_sources(JsonFields& fields, const std::filesystem::path& folder);
+
+// "parts", "groups" and "tolerance" for these shapes, which have labels where the rule asks for them and only there.
+PartSettings take_parts_of(JsonFields& fields, const std::vector<ShapeFile>& shapes);
 
 }  // namespace partwise

@@ -79,6 +79,13 @@ NormalPredictor read_normal_predictor(const std::filesystem::path& path) {
   return predictor;
 }
 
+NormalPredictor read_scene_predictor(const std::filesystem::path& path) {
+  NormalPredictor predictor = read_normal_predictor(path);
+  if (predictor.settings().architecture != NormalArchitecture::u)
+    throw InputError(path.string(), "reads single objects", "give weights of a network for scenes");
+  return predictor;
+}
+
 void read_normal_weights(const std::filesystem::path& path, const NormalPredictor& predictor) {
   const NormalPredictor other = read_normal_predictor(path);
   const NormalPredictorSettings &found = other.settings(), &wanted = predictor.settings();

@@ -47,6 +47,9 @@ class NormalPredictor {
 // Of a weights file of such a network, or of the networks of editing or of scenes: then that of their normals.
 NormalPredictor read_normal_predictor(const std::filesystem::path& path);
 
+// The same for whole pictures of scenes, of any size. Errors: InputError for a network that takes one size as well.
+NormalPredictor read_scene_predictor(const std::filesystem::path& path);
+
 // The same into one that is there already, of the same architecture and width, and, where it matters, size.
 void read_normal_weights(const std::filesystem::path& path, const NormalPredictor& predictor);
 

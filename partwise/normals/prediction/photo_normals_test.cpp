@@ -13,6 +13,10 @@
 #include "partwise/base/shared_files.h"
 #include "partwise/editing/image_tensors.h"
 #include "partwise/editing/test_editing.h"
+#include "partwise/normals/prediction/test_rooms.h"
+#include "partwise/normals/truth/normal_files.h"
+#include "partwise/normals/truth/normal_measures.h"
+#include "partwise/normals/truth/rgbd_folder.h"
 
 namespace partwise {
 namespace {
@@ -96,6 +100,21 @@ TEST(SceneNormals, OfAnySizeAreUnitVectors) {
   const NormalPredictor square(
       NormalPredictorSettings{.architecture = NormalArchitecture::multi_branch, .channels = 32});
   EXPECT_THROW(scene_normals(square, Image(8, 8, 3)), CheckFailed);
+}
+
+// Rooms with a chair: floors from walls, left from right; and they are small.
+TEST(SceneNormals, OfWhatShipsFaceTheWayTheRoomDoes) {
+  std::uintmax_t bytes = 0;
+  for (const char* name : {"models/networks/scenes.pt", "models/networks/scenes_standalone.pt"}) {
+    bytes += std::filesystem::file_size(shared_file(name));
+    const NormalPredictor predictor = read_scene_predictor(shared_file(name));
+    NormalMeasure measure;
+    for (const RgbdFiles& each : find_rgbd_frames(test::rooms_folder()))
+      measure.add(scene_normals(predictor, read_shown(each.colour)), read_normals(room_normals_file(each.colour)));
+    EXPECT_GT(measure.errors().cosine, 0.7) << name;
+  }
+  EXPECT_LT(bytes, 8'000'000u);
+  EXPECT_THROW(read_scene_predictor(shared_file("models/networks/editing.pt")), InputError);
 }
 
 // Pictures of shipped models: what ships tells left from right and up from down.

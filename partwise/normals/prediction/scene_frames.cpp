@@ -78,8 +78,7 @@ SceneFrames::Frame SceneFrames::read(const std::filesystem::path& colour, const 
   if (!has_room_truth(colour)) return result;
 
   const RoomTruth truth = read_room_truth(colour);
-  const std::vector<int> seen = read_room_materials(colour);
-  PARTWISE_CHECK(std::ssize(seen), ==, frame.depth.width * frame.depth.height);
+  const std::vector<int> seen = read_room_materials(colour, frame.depth.width, frame.depth.height);
   // A pixel shows one material or the other: of larger pictures, that of each pixel's middle.
   at::Tensor which = at::empty({1, shown.size(1), width_}, at::kByte);
   const double scale = static_cast<double>(frame.depth.width) / width_;

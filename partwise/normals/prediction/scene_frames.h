@@ -4,7 +4,7 @@
 //
 // All have one size: `width` columns and three quarters as many rows, made up to what 32 divides. Colours and normals
 // are means where frames are larger; a frame of another shape is cut above and below, or has empty rows there, whose
-// mask is 0. Normals are kept where half of a pixel or more has one, in steps of 1/127. Some ten bytes a pixel.
+// mask is 0. Normals are kept where half of a pixel or more has one, in steps of 1/127. Eight bytes a pixel.
 //
 // Varied batches are mirrored half of the time, and brighter or darker by up to 2^0.5. Row i of batch b depends on the
 // seed, b and i alone. Errors: InputError for frames that cannot be read; Cancelled.

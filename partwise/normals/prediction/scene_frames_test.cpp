@@ -39,7 +39,7 @@ TEST(SceneFrames, AreThePicturesAndTheNormalsOfTheirDepth) {
     const at::Tensor measured = planes_of(normals_from_depth(frame.depth, frame.camera));
     EXPECT_LT(largest(batch.normals[i].narrow(1, 8, 48) - measured), 0.005);
     const RoomTruth truth = read_room_truth(each.colour);
-    const std::vector<int> shown_material = read_room_materials(each.colour);
+    const std::vector<int> shown_material = read_room_materials(each.colour, 64, 48);
     for (const int pixel : {0, 700, 3000}) {
       const auto material = static_cast<std::size_t>(shown_material[static_cast<std::size_t>(pixel)]);
       for (const int k : {0, 5, 31})

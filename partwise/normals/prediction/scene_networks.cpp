@@ -4,6 +4,7 @@
 #include <ATen/TensorOperators.h>
 
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "partwise/appearance/material/dsbrdf_basis.h"
 #include "partwise/base/error.h"
@@ -34,18 +35,17 @@ struct LightModule : torch::nn::Module {
 
 struct SceneNetworks::Modules : torch::nn::Module {
   explicit Modules(const SceneNetworksSettings& given)
-      : settings(given),
-        normals({NormalArchitecture::u, given.width, given.channels, 0}),
-        material({.in = 4, .out = default_components, .channels = given.channels}) {
+      : settings(given), normals({NormalArchitecture::u, given.width, given.channels, 0}) {
     register_module("normals", normals.shared_module());
     if (!settings.readers) return;
-    register_module("material", material.module());
+    material.emplace(UNetworkSettings{.in = 4, .out = default_components, .channels = given.channels});
+    register_module("material", material->module());
     light = register_module("light", std::make_shared<LightModule>());
   }
 
   SceneNetworksSettings settings;
   NormalPredictor normals;
-  UNetwork material;
+  std::optional<UNetwork> material;
   std::shared_ptr<LightModule> light;
 };
 
@@ -55,7 +55,7 @@ const NormalPredictor& SceneNetworks::normals() const { return modules_->normals
 
 at::Tensor SceneNetworks::materials(const at::Tensor& pictures) const {
   PARTWISE_CHECK(settings().readers, ==, true);
-  return modules_->material(pictures);
+  return (*modules_->material)(pictures);
 }
 
 at::Tensor SceneNetworks::log_radiance(const at::Tensor& pictures) const {

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "partwise/base/error.h"
-#include "partwise/editing/training_parts.h"
+#include "partwise/editing/sampled_training.h"
 #include "partwise/learning/training_fields.h"
 
 namespace partwise {

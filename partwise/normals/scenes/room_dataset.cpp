@@ -12,7 +12,6 @@
 #include <tuple>
 
 #include "partwise/appearance/material/material_files.h"
-#include "partwise/appearance/shapes/shape_fields.h"
 #include "partwise/appearance/synthesis/dataset_fields.h"
 #include "partwise/base/atomic_file.h"
 #include "partwise/base/error.h"
@@ -200,7 +199,7 @@ RoomDatasetConfig read_room_dataset_config(const Path& path, std::uint64_t seed)
   RoomDatasetConfig config;
   config.folder = path.parent_path();
   static_cast<DatasetSources&>(config) = take_sources(fields, config.folder);
-  config.parts = take_part_settings(fields, config.parts.rule);
+  config.parts = take_parts_of(fields, config.shapes);
   config.height = fields.number("height", config.height, 0, 10);
   config.room.least_pieces = fields.whole("least_pieces", config.room.least_pieces, 0, 100);
   config.room.most_pieces = fields.whole("most_pieces", std::max(config.room.least_pieces, config.room.most_pieces),
@@ -266,10 +265,14 @@ RoomTruth read_room_truth(const Path& colour) {
   return truth;
 }
 
-std::vector<int> read_room_materials(const Path& colour) {
+std::vector<int> read_room_materials(const Path& colour, int width, int height) {
   const Path path = beside(colour, "materials", ".png");
   const Image codes = read_plain_png(path);
-  if (codes.channels != 1) throw InputError(path.string(), "has more than one channel", "make the rooms again");
+  if (codes.channels != 1 || codes.width != width || codes.height != height)
+    throw InputError(path.string(),
+                     fmt::format("is {} x {} of {} channels, not {} x {} of one", codes.width, codes.height,
+                                 codes.channels, width, height),
+                     "make the rooms again");
   std::vector<int> result(codes.values.size());
   std::ranges::transform(codes.values, result.begin(),
                          [](float value) { return static_cast<int>(std::lround(255 * value)) - 1; });

@@ -65,8 +65,9 @@ struct RoomTruth {
 // is damaged.
 bool has_room_truth(const std::filesystem::path& colour);
 RoomTruth read_room_truth(const std::filesystem::path& colour);
-// Its exact normals, and its materials pixel by pixel, -1 where nothing is seen.
+// Its exact normals, and its materials pixel by pixel, -1 where nothing is seen. Errors: InputError for a picture of
+// another size as well.
 std::filesystem::path room_normals_file(const std::filesystem::path& colour);
-std::vector<int> read_room_materials(const std::filesystem::path& colour);
+std::vector<int> read_room_materials(const std::filesystem::path& colour, int width, int height);
 
 }  // namespace partwise

@@ -86,7 +86,7 @@ TEST_F(RoomDataset, IsReadAsRgbdDataAndKeepsItsTruth) {
       for (int k = 0; k < default_components; ++k)
         EXPECT_NEAR(truth.materials[i][static_cast<std::size_t>(k)], numbers[k], 1e-5);
     }
-    const std::vector<int> shown = read_room_materials(each.colour);
+    const std::vector<int> shown = read_room_materials(each.colour, 64, 48);
     EXPECT_EQ(shown.size(), 64u * 48u);
     const std::set<int> different(shown.begin(), shown.end());
     EXPECT_GE(*different.begin(), 0);
@@ -155,11 +155,13 @@ TEST_F(RoomDataset, RefusesWhatItCannotMake) {
   EXPECT_THAT(refusal({{"shapes", {"none.obj"}}}), HasSubstr("shapes[0] \"none.obj\" does not exist"));
   EXPECT_THAT(refusal({{"field_of_view", 190}}), HasSubstr("field_of_view"));
   EXPECT_THAT(refusal({{"least_pieces", 5}, {"most_pieces", 2}}), HasSubstr("most_pieces"));
+  EXPECT_THAT(refusal({{"parts", "labels"}}), HasSubstr("parts are labels"));
   EXPECT_THAT(refusal({{"views", 3}}), HasSubstr("views is not a field that is known; see docs/rooms.md"));
   make_room_dataset(config(1));
   const auto colour = folder_.path() / "rooms" / "color" / "000000.png";
   write_file(folder_.path() / "rooms" / "truth" / "000000.json", "{\"materials\": [], \"light\": 3}");
   EXPECT_THROW(read_room_truth(colour), InputError);
+  EXPECT_THROW(read_room_materials(colour, 48, 64), InputError);
 }
 
 }  // namespace
