@@ -42,7 +42,7 @@ class Judge {
   explicit Judge(const std::string& weights) : weights_(weights), predictor_(read_normal_predictor(weights)) {}
 
   void look(const bench::EditCase& truth, int map_size) {
-    const at::Tensor normals = predictor_(truth.picture), mask = truth.mask();
+    const at::Tensor normals = predictor_.both_ways(truth.picture), mask = truth.mask();
     detail_.add(image_of(normals[0]), image_of(truth.normals[0]));
     add("cosine", ((normals * truth.normals).sum() / mask.sum()).item<double>());
     const at::Tensor image = bench::image_of_maps(normals, truth.regions, truth.maps, map_size);

@@ -45,7 +45,7 @@ void tell_model(const Taken& picture, const std::string& name, const Image& foun
 }  // namespace
 
 NormalsStory tell_normals(std::span<const WornModel> models) {
-  const NormalPredictor network = read_normal_predictor(shared_file("models/networks/editing.pt"));
+  const NormalPredictor network = read_normal_predictor(shared_file("models/networks/objects.pt"));
   const std::vector<std::string> worn = {"specular-orange-phenolic", "white-fabric", "blue-metallic-paint"};
   const std::vector<std::string> lights = {"lobby", "venice", "sunrise"};
   NormalsStory story;

@@ -7,7 +7,7 @@
 
 int main(int, char** argv) {
   const partwise::NormalPredictor network =
-      partwise::read_normal_predictor(partwise::shared_file("models/networks/editing.pt"));
+      partwise::read_normal_predictor(partwise::shared_file("models/networks/objects.pt"));
   const partwise::Image normals = partwise::photo_normals(network, partwise::read_photo(argv[1], {}));
   partwise::write_normals(argv[2], normals);
   std::cout << normals.width << " x " << normals.height << " normals\n";

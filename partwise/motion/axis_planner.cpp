@@ -4,11 +4,13 @@
 #include <utility>
 
 #include "partwise/base/error.h"
+#include "partwise/motion/reached_region.h"
 
 namespace partwise {
 namespace {
 
 constexpr std::uint64_t end_purpose = 3, plain_purpose = 4;
+constexpr long first_near = 1L << 40;  // number of a configuration, past all that are drawn evenly
 
 RoadmapSettings seeded(RoadmapSettings settings, std::uint64_t seed) {
   settings.seed = seed;
@@ -44,16 +46,37 @@ std::vector<AxisSample> AxisPlanner::plain_samples(int count) {
   return samples;
 }
 
-void AxisPlanner::grow(const Progress& progress) {
-  const int count = std::max(settings_.batch, static_cast<int>(growing_.samples().size() / 4));
-  const int plain = static_cast<int>(settings_.free_share * count);
-  AxisSamplesSettings sampling{.count = count - plain, .only_on_axis = settings_.only_on_axis, .seed = settings_.seed};
+std::vector<AxisSample> AxisPlanner::even_samples(int count, const Progress& progress) {
+  AxisSamplesSettings sampling{.count = count, .only_on_axis = settings_.only_on_axis, .seed = settings_.seed};
   sampling.first = drawn_;
   AxisSamples found = axis_samples(scene_, retract_, sampling, progress);
   drawn_ += found.drawn;
-  std::vector<AxisSample> samples = std::exchange(waiting_, {});
-  std::ranges::move(found.samples, std::back_inserter(samples));
-  std::ranges::move(plain_samples(plain), std::back_inserter(samples));
+  return std::move(found.samples);
+}
+
+std::vector<AxisSample> AxisPlanner::near_samples(int count, const Progress& progress) {
+  std::vector<int> ends = starts_;
+  ends.insert(ends.end(), goals_.begin(), goals_.end());
+  if (ends.empty() || count == 0) return {};
+  const ReachedRegion reached(scene_, growing_.samples(), growing_.roadmap(), ends, old_);
+  AxisSamplesSettings sampling{.count = count, .only_on_axis = settings_.only_on_axis, .seed = settings_.seed};
+  sampling.first = first_near + near_drawn_;
+  sampling.drawn = [&](Draw& draw) { return reached.drawn(draw); };
+  AxisSamples found = axis_samples(scene_, retract_, sampling, progress);
+  near_drawn_ += found.drawn;
+  return std::move(found.samples);
+}
+
+void AxisPlanner::grow(const Progress& progress) {
+  const int count = std::max(settings_.batch, static_cast<int>(growing_.samples().size() / 32));
+  const int plain = static_cast<int>(settings_.free_share * count);
+  const int near = static_cast<int>(settings_.near_share * (count - plain));
+  std::vector<AxisSample> samples = even_samples(count - plain - near, progress);
+  const auto take = [&](std::vector<AxisSample> more) { std::ranges::move(more, std::back_inserter(samples)); };
+  take(near_samples(near, progress));
+  take(plain_samples(plain));
+  take(std::exchange(waiting_, {}));
+  old_ = growing_.samples().size();
   growing_.add(samples, progress);
   joined_ = true;
 }
@@ -69,14 +92,24 @@ void AxisPlanner::join_ends(const Progress& progress) {
   joined_ = true;
 }
 
-std::optional<MotionPath> AxisPlanner::path() const {
-  return path_search(growing_.roadmap(), growing_.samples(), starts_, goals_, settings_.search);
+std::optional<MotionPath> AxisPlanner::path(const Progress& progress) {
+  const auto best = [&] {
+    return path_search(growing_.roadmap(), growing_.samples(), starts_, goals_, settings_.search);
+  };
+  const std::optional<MotionPath> found = best();
+  if (!found) return std::nullopt;
+  try {
+    growing_.add_cycles(*found, progress);
+  } catch (const Cancelled&) {
+    return found;  // no time to find a better one
+  }
+  return best();
 }
 
 MotionPath AxisPlanner::solve(const Progress& progress) {
   join_ends(progress);
   while (true) {
-    if (std::optional<MotionPath> found = path()) return *std::move(found);
+    if (std::optional<MotionPath> found = path(progress)) return *std::move(found);
     grow(progress);
   }
 }

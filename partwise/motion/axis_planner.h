@@ -4,7 +4,8 @@
 // Samples come in batches, later ones larger, each joined to all before the next is drawn. Starts and goals are pushed
 // to the axis as well. A share of the samples are plain free configurations: where there is no axis, far from obstacles
 // or beside a single one, the roadmap is a plain one (Kavraki et al. 1996), so that any path with room around it is
-// found in the end.
+// found in the end. Another share is drawn about what starts and goals reach already (reached_region.h): out of a trap,
+// or through a passage that is a small part of the bounds, there is a way step by step where there is none by chance.
 //
 // The same roadmap for any number of threads. After Cancelled everything goes on from the last batch that was joined.
 // Errors: CheckFailed for starts and goals that are not free.
@@ -17,10 +18,11 @@
 namespace partwise {
 
 struct AxisPlannerSettings {
-  int batch = 100;           // samples of the first batch; later ones have a quarter of what there is, if that is more
+  int batch = 100;           // samples of the first batch; later ones have a 32nd of what there is, if that is more
   double free_share = 0.1;   // of plain samples
+  double near_share = 0.5;   // of the others, drawn about what starts and goals reach
   bool only_on_axis = true;  // drop what the retractor did not bring to the axis (axis_samples.h)
-  RoadmapSettings connecting{};
+  RoadmapSettings connecting{.cycles = false};
   PathSearchSettings search{};
   std::uint64_t seed = 0;
 };
@@ -39,8 +41,8 @@ class AxisPlanner {
   void join_ends(const Progress& progress = {});
   // Draws a batch and joins it.
   void grow(const Progress& progress = {});
-  // The best path by now, if there is one.
-  std::optional<MotionPath> path() const;
+  // The best path by now, if there is one; edges about the first that is found are completed before. Never Cancelled.
+  std::optional<MotionPath> path(const Progress& progress = {});
   // Grows until there is a path. Without one this ends by Cancelled only.
   MotionPath solve(const Progress& progress);
 
@@ -50,6 +52,8 @@ class AxisPlanner {
 
  private:
   int add_end(const Configuration& q);
+  std::vector<AxisSample> even_samples(int count, const Progress& progress);
+  std::vector<AxisSample> near_samples(int count, const Progress& progress);
   std::vector<AxisSample> plain_samples(int count);
 
   const Scene& scene_;
@@ -59,7 +63,8 @@ class AxisPlanner {
   std::vector<int> starts_, goals_;
   std::vector<AxisSample> waiting_;  // ends brought to the axis, not joined yet
   bool joined_ = true;               // all ends
-  long drawn_ = 0, plain_drawn_ = 0;
+  std::size_t old_ = 0;              // samples that came before the last batch
+  long drawn_ = 0, near_drawn_ = 0, plain_drawn_ = 0;
 };
 
 }  // namespace partwise

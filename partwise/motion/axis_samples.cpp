@@ -36,7 +36,8 @@ AxisSamples axis_samples(const Scene& scene, const Retractor& retract, const Axi
     std::vector<std::vector<Found>> tries(static_cast<std::size_t>(std::min(batch, missing + missing / 8 + 16)));
     tbb::parallel_for(std::size_t(0), tries.size(), [&](std::size_t i) {
       Draw draw(settings.seed, static_cast<std::uint64_t>(settings.first + result.drawn) + i, axis_purpose);
-      for (Retraction& walk : retract.samples(scene.space().drawn(draw), draw)) {
+      const Configuration q = settings.drawn ? settings.drawn(draw) : scene.space().drawn(draw);
+      for (Retraction& walk : retract.samples(q, draw)) {
         Found& each = tries[i].emplace_back(std::move(walk));
         if (!each.walk.done || !scene.within_bounds(each.walk.q)) continue;
         each.state = axis_state(scene, each.walk.q);

@@ -1,5 +1,5 @@
-// Samples of the medial axis of the free space, by any method: configurations are drawn evenly within the bounds and
-// retracted, until enough have arrived.
+// Samples of the medial axis of the free space, by any method: configurations are drawn, evenly within the bounds
+// or as one says, and retracted, until enough have arrived.
 //
 // A sample is free and within the bounds whatever the method says. With `only_on_axis` the two smallest distances must
 // also differ by at most 2 % (medial_axis.h), which a query each decides: what the method got wrong is not a sample.
@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "partwise/base/progress.h"
@@ -20,6 +21,7 @@ struct AxisSamplesSettings {
   int most_tries = 50;  // configurations drawn a sample that is asked for
   std::uint64_t seed = 0;
   long first = 0;  // number of the first configuration drawn: a later call goes on where an earlier one stopped
+  std::function<Configuration(Draw&)> drawn = {};  // left empty: evenly within the bounds
 };
 
 struct AxisSample {

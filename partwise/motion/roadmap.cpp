@@ -23,18 +23,28 @@ constexpr std::uint64_t edge_purpose = 2;
 
 using Pairs = std::vector<std::pair<int, int>>;
 
-// Pairs of samples of which one is among the nearest of the other, where one of them is `wanted`.
-Pairs near_pairs(const MotionPoints& points, const std::vector<int>& wanted, int neighbours) {
+// The nearest samples of each of `wanted`, itself among them: a column each, nearest first.
+using Neighbours = Eigen::Matrix<Eigen::Index, Eigen::Dynamic, Eigen::Dynamic>;
+Neighbours near_neighbours(const MotionPoints& points, const std::vector<int>& wanted, int neighbours) {
   const Tree tree(static_cast<int>(points.cols()), std::cref(points));
-  const std::size_t each = std::min(static_cast<std::size_t>(points.rows()), static_cast<std::size_t>(neighbours) + 1);
-  Pairs pairs(wanted.size() * each);
-  tbb::parallel_for(std::size_t(0), wanted.size(), [&](std::size_t i) {
-    std::vector<Eigen::Index> found(each);
-    std::vector<double> distances(each);
-    const MotionVector x = points.row(wanted[i]).transpose();
-    tree.query(x.data(), each, found.data(), distances.data());
-    for (std::size_t k = 0; k < each; ++k) pairs[i * each + k] = std::minmax(wanted[i], static_cast<int>(found[k]));
+  const auto each = std::min(points.rows(), static_cast<Eigen::Index>(neighbours) + 1);
+  Neighbours found(each, static_cast<Eigen::Index>(wanted.size()));
+  tbb::parallel_for(Eigen::Index(0), found.cols(), [&](Eigen::Index i) {
+    std::vector<double> distances(static_cast<std::size_t>(each));
+    const MotionVector x = points.row(wanted[static_cast<std::size_t>(i)]).transpose();
+    tree.query(x.data(), static_cast<std::size_t>(each), found.col(i).data(), distances.data());
   });
+  return found;
+}
+
+// Pairs of `wanted` and of what stands in these rows of their columns, each once.
+Pairs pairs_of(const std::vector<int>& wanted, const Neighbours& found, Eigen::Index first, Eigen::Index count) {
+  Pairs pairs;
+  for (Eigen::Index i = 0; i < found.cols(); ++i) {
+    const int from = wanted[static_cast<std::size_t>(i)];
+    for (Eigen::Index k = first; k < first + count; ++k)
+      pairs.push_back(std::minmax(from, static_cast<int>(found(k, i))));
+  }
   std::erase_if(pairs, [](const auto& pair) { return pair.first == pair.second; });
   std::ranges::sort(pairs);
   const auto repeated = std::ranges::unique(pairs);
@@ -158,6 +168,7 @@ struct GrowingRoadmap::State {
   std::size_t connected = 0;  // samples that were joined to their nearest neighbours
   std::uint64_t tried = 0;
   std::set<std::pair<int, int>> known;  // pairs that were tried and may come up again
+  Pairs left_out;                       // for want of cycles
   Roadmap roadmap;
 
   Connector::Stop stop(int i) const {
@@ -206,28 +217,48 @@ struct GrowingRoadmap::State {
     return roadmap.edges.size() > before;
   }
 
-  // New samples with their nearest neighbours, and endpoints with theirs, as far as they are not known.
-  Pairs near() const {
-    std::vector<int> wanted(samples.size() - connected);
-    std::iota(wanted.begin(), wanted.end(), static_cast<int>(connected));
+  // New samples, and endpoints that are no longer new.
+  std::vector<int> unjoined() const {
+    std::vector<int> result(samples.size() - connected);
+    std::iota(result.begin(), result.end(), static_cast<int>(connected));
     for (const int each : endpoints) {
-      if (static_cast<std::size_t>(each) < connected) wanted.push_back(each);
+      if (static_cast<std::size_t>(each) < connected) result.push_back(each);
     }
-    Pairs pairs = near_pairs(points, wanted, settings.neighbours);
-    std::erase_if(pairs, [&](const auto& pair) { return known.contains(pair); });
-    return pairs;
+    return result;
   }
   bool of_endpoint(const std::pair<int, int>& pair) const {
     return std::ranges::any_of(endpoints, [&](int each) { return each == pair.first || each == pair.second; });
   }
 
-  void connect(const Progress& progress) {
-    const Pairs pairs = near();
-    join(pairs, progress);
-    connected = samples.size();
-    for (const auto& pair : pairs) {
-      if (of_endpoint(pair)) known.insert(pair);
+  // To their nearest neighbours: to all at once or, without cycles, to the nearest first and then to those that this
+  // has not joined yet.
+  void join_near(const std::vector<int>& wanted, const Progress& progress) {
+    const Neighbours found = near_neighbours(points, wanted, settings.neighbours);
+    const Eigen::Index rows = settings.cycles ? found.rows() : 1;
+    std::set<std::pair<int, int>> tried_now;
+    for (Eigen::Index first = 0; first < found.rows(); first += rows) {
+      Pairs pairs = pairs_of(wanted, found, first, rows);
+      if (!settings.cycles) {
+        const std::vector<int> component = components(roadmap.edges, samples.size(), roadmap.components);
+        std::erase_if(pairs, [&](const auto& pair) {
+          if (!tried_now.insert(pair).second) return true;
+          const bool together =
+              component[static_cast<std::size_t>(pair.first)] == component[static_cast<std::size_t>(pair.second)];
+          if (together) left_out.push_back(pair);
+          return together;
+        });
+      }
+      std::erase_if(pairs, [&](const auto& pair) { return known.contains(pair); });
+      join(pairs, progress);
+      for (const auto& pair : pairs) {
+        if (of_endpoint(pair)) known.insert(pair);
+      }
     }
+  }
+
+  void connect(const Progress& progress) {
+    join_near(unjoined(), progress);
+    connected = samples.size();
     for (bool more = true; more;) {
       std::vector<int> component = components(roadmap.edges, samples.size(), roadmap.components);
       if (roadmap.components == 1) break;
@@ -235,6 +266,31 @@ struct GrowingRoadmap::State {
       more = join(across, progress);
       known.insert(across.begin(), across.end());
     }
+    sort_edges();
+  }
+
+  void add_cycles(const MotionPath& path, const Progress& progress) {
+    std::vector<bool> passed(samples.size(), false);
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      passed[i] = std::ranges::find(path.configurations, samples[i].q) != path.configurations.end();
+    std::vector<bool> about = passed;
+    const auto reach = [&](int a, int b) {
+      if (passed[static_cast<std::size_t>(a)]) about[static_cast<std::size_t>(b)] = true;
+      if (passed[static_cast<std::size_t>(b)]) about[static_cast<std::size_t>(a)] = true;
+    };
+    for (const RoadmapEdge& each : roadmap.edges) reach(each.from, each.to);
+    for (const auto& [a, b] : left_out) reach(a, b);
+    const auto near = std::ranges::partition(left_out, [&](const auto& pair) {
+      return !about[static_cast<std::size_t>(pair.first)] || !about[static_cast<std::size_t>(pair.second)];
+    });
+    Pairs pairs(near.begin(), near.end());
+    std::ranges::sort(pairs);
+    join(pairs, progress);
+    left_out.erase(near.begin(), near.end());
+    sort_edges();
+  }
+
+  void sort_edges() {
     std::ranges::sort(roadmap.edges, {}, [](const RoadmapEdge& each) { return std::pair(each.from, each.to); });
   }
 };
@@ -255,6 +311,10 @@ int GrowingRoadmap::add_endpoint(const Configuration& q) {
 void GrowingRoadmap::add(const std::vector<AxisSample>& samples, const Progress& progress) {
   state_->take(samples);
   if (!state_->samples.empty()) state_->connect(progress);
+}
+
+void GrowingRoadmap::add_cycles(const MotionPath& path, const Progress& progress) {
+  state_->add_cycles(path, progress);
 }
 
 Roadmap connected(const Scene& scene, const std::vector<AxisSample>& samples, const Retractor& retract,

@@ -22,12 +22,14 @@
 
 #include "partwise/base/progress.h"
 #include "partwise/motion/axis_samples.h"
+#include "partwise/motion/motion_path.h"
 
 namespace partwise {
 
 struct RoadmapSettings {
   int neighbours = 8;  // of each sample, by embedded distance
   bool push = true;    // edges; else all are straight
+  bool cycles = true;  // else what is joined already by way of others is left out, for want of time
   int depth = 6;
   double resolution = 1e-5;  // share of the bounds' diagonal
   std::uint64_t seed = 0;
@@ -55,6 +57,9 @@ class GrowingRoadmap {
   // A configuration that paths start or end at, free and within the bounds; its number among the samples.
   int add_endpoint(const Configuration& q);
   void add(const std::vector<AxisSample>& samples, const Progress& progress = {});
+  // Without cycles: the edges that were left out between samples that the path passes and neighbours of these, so that
+  // there is something to choose from.
+  void add_cycles(const MotionPath& path, const Progress& progress = {});
 
   const std::vector<AxisSample>& samples() const;  // endpoints among them
   const Roadmap& roadmap() const;                  // of all that was added before the last add()

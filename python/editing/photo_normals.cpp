@@ -19,7 +19,7 @@ py::array normals(const py::object& given, const py::object& masks,
                   const std::optional<std::filesystem::path>& weights) {
   const Photo photo = photo_in(given, masks);
   return image_out(long_call([&](const Progress&) {
-    return photo_normals(read_normal_predictor(weights.value_or(shared_file("models/networks/editing.pt"))), photo);
+    return photo_normals(read_normal_predictor(weights.value_or(shared_file("models/networks/objects.pt"))), photo);
   }));
 }
 

@@ -30,7 +30,7 @@ struct Options {
 
 std::filesystem::path weights_file(const Options& options) {
   if (!options.weights.empty()) return options.weights;
-  return shared_file(options.model == Model::scene ? "models/networks/scenes.pt" : "models/networks/editing.pt");
+  return shared_file(options.model == Model::scene ? "models/networks/scenes.pt" : "models/networks/objects.pt");
 }
 
 Image object_normals(const Options& options, const NormalPredictor& predictor, Run& run) {

@@ -94,7 +94,7 @@ ob::PlannerStatus MedialAxisPlanner::solve(const ob::PlannerTerminationCondition
       for (const Configuration& q : std::exchange(starts_, {})) planner_->add_start(q);
       for (const Configuration& q : std::exchange(goals_, {})) planner_->add_goal(q);
       planner_->join_ends(progress);
-      if (const std::optional<MotionPath> path = planner_->path()) {
+      if (const std::optional<MotionPath> path = planner_->path(progress)) {
         pdef_->addSolutionPath(geometric_path(si_, scene_->space(), *path), false, 0, getName());
         return ob::PlannerStatus::EXACT_SOLUTION;
       }

@@ -1,5 +1,6 @@
 #include "partwise/normals/prediction/normal_predictor.h"
 
+#include <ATen/Functions.h>
 #include <ATen/TensorOperators.h>
 #include <torch/nn/module.h>
 
@@ -44,6 +45,12 @@ NormalPredictor::NormalPredictor(const NormalNetwork& network) {
 at::Tensor NormalPredictor::operator()(const at::Tensor& pictures) const {
   if (const auto* multi_branch = std::get_if<NormalNetwork>(&network_->of)) return (*multi_branch)(pictures);
   return unit_vectors(std::get<UNetwork>(network_->of)(pictures)) * pictures.narrow(1, 3, 1);
+}
+
+at::Tensor NormalPredictor::both_ways(const at::Tensor& pictures) const {
+  const at::Tensor mirrored = (*this)(pictures.flip(3)).flip(3);
+  const at::Tensor back = at::cat({-mirrored.narrow(1, 0, 1), mirrored.narrow(1, 1, 2)}, 1);
+  return unit_vectors((*this)(pictures) + back);
 }
 
 const NormalPredictorSettings& NormalPredictor::settings() const { return network_->settings; }

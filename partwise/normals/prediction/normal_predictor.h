@@ -34,6 +34,10 @@ class NormalPredictor {
 
   at::Tensor operator()(const at::Tensor& pictures) const;
 
+  // The mean of what it finds on each picture and on its mirror image, whose normals are mirrored back: two guesses at
+  // the same surface, and their mean is nearer to it. Takes twice as long.
+  at::Tensor both_ways(const at::Tensor& pictures) const;
+
   const NormalPredictorSettings& settings() const;
   torch::nn::Module& module() const;
   std::shared_ptr<torch::nn::Module> shared_module() const;  // to be part of another

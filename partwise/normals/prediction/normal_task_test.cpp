@@ -48,6 +48,18 @@ TEST(NormalPredictor, FindsUnitVectorsOnTheMask) {
   EXPECT_THROW(predictor(multi_branch)(at::rand({1, 4, 64, 64})), CheckFailed);
 }
 
+TEST(NormalPredictor, BothWaysFindsOfMirrorImagesTheMirroredNormals) {
+  const at::NoGradGuard no_gradient;
+  const EditBatch batch = test::samples(false).batch(0, {0, 2, 2});
+  const NormalPredictor given = predictor(u);
+  given.module().eval();
+  const at::Tensor found = given.both_ways(batch.pictures), mirrored = given.both_ways(batch.pictures.flip(3)).flip(3);
+  EXPECT_LT((found.square().sum(1, true).sqrt() - batch.mask()).abs().max().item<double>(), 1e-4);
+  const at::Tensor back = at::cat({-mirrored.narrow(1, 0, 1), mirrored.narrow(1, 1, 2)}, 1);
+  EXPECT_LT((found - back).abs().max().item<double>(), 1e-5);
+  EXPECT_GT((found - given(batch.pictures)).abs().max().item<double>(), 1e-3);
+}
+
 TEST(NormalPredictor, IsReadAsItWasWritten) {
   const at::NoGradGuard no_gradient;
   const TestFolder folder;

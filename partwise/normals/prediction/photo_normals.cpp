@@ -50,7 +50,7 @@ Image photo_normals(const NormalPredictor& predictor, const Photo& photo) {
   const auto square = [&](const Image& image) { return cropped(image, crop.x, crop.y, crop.side); };
   const at::Tensor mask = (resized(square(object), size) > covered).to(at::kFloat);
   const at::Tensor colours = resized(square(photo.shown), size);
-  const at::Tensor found = predictor(at::cat({colours * mask, mask}, 1));
+  const at::Tensor found = predictor.both_ways(at::cat({colours * mask, mask}, 1));
   const Image normals = image_of(resized(grown(found), crop.side)[0]);
 
   Image result(photo.shown.width, photo.shown.height, 3);
@@ -75,7 +75,7 @@ Image scene_normals(const NormalPredictor& predictor, const Image& shown) {
   const at::Tensor colours = scaled(planes_of(shown).unsqueeze(0), rows, columns);
   const at::Tensor picture = padded(at::cat({colours, at::ones({1, 1, rows, columns})}, 1));
   const std::int64_t above = (picture.size(2) - rows) / 2, left = (picture.size(3) - columns) / 2;
-  const at::Tensor found = predictor(picture).narrow(2, above, rows).narrow(3, left, columns);
+  const at::Tensor found = predictor.both_ways(picture).narrow(2, above, rows).narrow(3, left, columns);
   return image_of(unit_vectors(scaled(found, shown.height, shown.width))[0]);
 }
 

@@ -70,7 +70,7 @@ TEST(PhotoNormals, AreThoseOfTheNetwork) {
   ASSERT_EQ(crop.y, 0);
   const at::NoGradGuard no_gradient;
   const at::Tensor mask = planes_of(photo.regions[0]).unsqueeze(0);
-  const at::Tensor found = predictor(at::cat({planes_of(photo.shown).unsqueeze(0) * mask, mask}, 1));
+  const at::Tensor found = predictor.both_ways(at::cat({planes_of(photo.shown).unsqueeze(0) * mask, mask}, 1));
   EXPECT_LT((planes_of(photo_normals(predictor, photo)) - found[0]).abs().max().item<double>(), 1e-5);
 }
 
@@ -83,7 +83,7 @@ TEST(SceneNormals, AreThoseOfTheNetwork) {
   for (std::size_t i = 0; i < shown.values.size(); ++i) shown.values[i] = static_cast<float>(i * 7 % 31) / 31;
   const at::NoGradGuard no_gradient;
   const at::Tensor picture = at::cat({planes_of(shown), at::ones({1, 72, 96})}).unsqueeze(0);
-  const at::Tensor found = predictor(at::constant_pad_nd(picture, {0, 0, 12, 12})).narrow(2, 12, 72);
+  const at::Tensor found = predictor.both_ways(at::constant_pad_nd(picture, {0, 0, 12, 12})).narrow(2, 12, 72);
   EXPECT_LT((planes_of(scene_normals(predictor, shown)) - found[0]).abs().max().item<double>(), 1e-5);
 }
 
@@ -119,7 +119,7 @@ TEST(SceneNormals, OfWhatShipsFaceTheWayTheRoomDoes) {
 
 // Pictures of shipped models: what ships tells left from right and up from down.
 TEST(PhotoNormals, OfWhatShipsFaceTheWayTheSurfaceDoes) {
-  const NormalPredictor predictor = read_normal_predictor(shared_file("models/networks/editing.pt"));
+  const NormalPredictor predictor = read_normal_predictor(shared_file("models/networks/objects.pt"));
   const EditBatch batch = test::samples(false).batch(0, {0, 4, 4});
   const at::NoGradGuard no_gradient;
   const double cosine = ((predictor(batch.pictures) * batch.normals).sum() / batch.mask().sum()).item<double>();
