@@ -70,7 +70,7 @@ std::vector<AxisSample> AxisPlanner::near_samples(int count, const Progress& pro
 void AxisPlanner::grow(const Progress& progress) {
   const int count = std::max(settings_.batch, static_cast<int>(growing_.samples().size() / 32));
   const int plain = static_cast<int>(settings_.free_share * count);
-  const int near = static_cast<int>(settings_.near_share * (count - plain));
+  const int near = drawn_ == 0 ? 0 : static_cast<int>(settings_.near_share * (count - plain));
   std::vector<AxisSample> samples = even_samples(count - plain - near, progress);
   const auto take = [&](std::vector<AxisSample> more) { std::ranges::move(more, std::back_inserter(samples)); };
   take(near_samples(near, progress));
@@ -96,14 +96,12 @@ std::optional<MotionPath> AxisPlanner::path(const Progress& progress) {
   const auto best = [&] {
     return path_search(growing_.roadmap(), growing_.samples(), starts_, goals_, settings_.search);
   };
-  const std::optional<MotionPath> found = best();
-  if (!found) return std::nullopt;
+  std::optional<MotionPath> found = best();
   try {
-    growing_.add_cycles(*found, progress);
-  } catch (const Cancelled&) {
-    return found;  // no time to find a better one
+    while (found && growing_.add_cycles(*found, progress)) found = best();
+  } catch (const Cancelled&) {  // no time to find a better one
   }
-  return best();
+  return found;
 }
 
 MotionPath AxisPlanner::solve(const Progress& progress) {

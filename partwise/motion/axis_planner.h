@@ -4,8 +4,9 @@
 // Samples come in batches, later ones larger, each joined to all before the next is drawn. Starts and goals are pushed
 // to the axis as well. A share of the samples are plain free configurations: where there is no axis, far from obstacles
 // or beside a single one, the roadmap is a plain one (Kavraki et al. 1996), so that any path with room around it is
-// found in the end. Another share is drawn about what starts and goals reach already (reached_region.h): out of a trap,
-// or through a passage that is a small part of the bounds, there is a way step by step where there is none by chance.
+// found in the end. After the first batch another share is drawn about what starts and goals reach (reached_region.h):
+// out of a trap, or through a passage that is a small part of the bounds, there is a way step by step where there is
+// none by chance.
 //
 // The same roadmap for any number of threads. After Cancelled everything goes on from the last batch that was joined.
 // Errors: CheckFailed for starts and goals that are not free.
@@ -41,7 +42,8 @@ class AxisPlanner {
   void join_ends(const Progress& progress = {});
   // Draws a batch and joins it.
   void grow(const Progress& progress = {});
-  // The best path by now, if there is one; edges about the first that is found are completed before. Never Cancelled.
+  // The best path by now, if there is one. Edges about it are completed, and about the better one that this gives, and
+  // so on, as long as there is time: never Cancelled.
   std::optional<MotionPath> path(const Progress& progress = {});
   // Grows until there is a path. Without one this ends by Cancelled only.
   MotionPath solve(const Progress& progress);

@@ -12,6 +12,7 @@
 #include "partwise/motion/margin_push.h"
 #include "partwise/motion/path_simplify.h"
 #include "partwise/motion/point_scene.h"
+#include "partwise/motion/reached_region.h"
 #include "partwise/motion/test_scenes.h"
 #include "partwise/motion/umaprm.h"
 #include "partwise/motion/world.h"
@@ -187,6 +188,35 @@ TEST(AxisPlanner, GoesOnAfterAStopAndFindsStraightWays) {
   }
   const MotionPath path = stopped.solve({});
   EXPECT_GT(path_clearance(*world.scene, path).minimum, 0);
+}
+
+// A wall from side to side: what is drawn stays on the start's side, however far the place is; it goes along the wall.
+TEST(ReachedRegion, WalksEndBeforeWalls) {
+  const auto scene = point_scene({rectangle(-10, -1, 10, 1)}, wide);
+  const auto sample = [&](double x, double y) { return AxisSample{at(x, y), axis_state(*scene, at(x, y))}; };
+  const std::vector<AxisSample> samples = {sample(-5, -5), sample(-4, -5), sample(5, 5), sample(8, -8)};
+  const Roadmap roadmap{{{0, 1, {}, 1, 4}}};
+  int far = 0, along = 0;
+  for (const std::size_t old : {std::size_t(1), samples.size()}) {
+    const ReachedRegion reached(*scene, samples, roadmap, {0, 1}, old);
+    for (std::uint64_t i = 0; i < 500; ++i) {
+      Draw draw(3, i, 0);
+      const Configuration q = reached.drawn(draw);
+      ASSERT_TRUE(scene->within_bounds(q) && scene->free(q));
+      ASSERT_LT(q.y(), -1);
+      far += (q - at(-5, -5)).norm() > 6 ? 1 : 0;
+      along += q.y() == -5 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(far, 20);
+  EXPECT_GT(along, 300);  // of two samples that lie along x
+  const ReachedRegion both(*scene, samples, roadmap, {0, 2}, 0);
+  int above = 0;
+  for (std::uint64_t i = 0; i < 500; ++i) {
+    Draw draw(3, i, 0);
+    above += both.drawn(draw).y() > 1 ? 1 : 0;
+  }
+  EXPECT_NEAR(above, 250, 60);
 }
 
 TEST(AxisPath, IsThePlannersAndEndsWithItsTime) {

@@ -125,8 +125,11 @@ Configuration ReachedRegion::drawn(Draw& draw) const {
   const auto neighbour = [&](int i) {
     return component[about[static_cast<std::size_t>(two[static_cast<std::size_t>(i)])]];
   };
-  const double stretch = least_stretch * std::pow(most_stretch / least_stretch, draw.unit());
-  return walked(from, space.moved(from, stretch * space.difference(neighbour(0), neighbour(1))));
+  const Tangent way = space.difference(neighbour(0), neighbour(1));
+  double stretch = least_stretch * std::pow(most_stretch / least_stretch, draw.unit());
+  Configuration towards = space.moved(from, stretch * way);
+  while (!scene_.within_bounds(towards)) towards = space.moved(from, (stretch /= 2) * way);
+  return walked(from, towards);
 }
 
 }  // namespace partwise

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <nanoflann.hpp>
@@ -238,22 +239,26 @@ struct GrowingRoadmap::State {
     std::set<std::pair<int, int>> tried_now;
     for (Eigen::Index first = 0; first < found.rows(); first += rows) {
       Pairs pairs = pairs_of(wanted, found, first, rows);
-      if (!settings.cycles) {
-        const std::vector<int> component = components(roadmap.edges, samples.size(), roadmap.components);
-        std::erase_if(pairs, [&](const auto& pair) {
-          if (!tried_now.insert(pair).second) return true;
-          const bool together =
-              component[static_cast<std::size_t>(pair.first)] == component[static_cast<std::size_t>(pair.second)];
-          if (together) left_out.push_back(pair);
-          return together;
-        });
-      }
-      std::erase_if(pairs, [&](const auto& pair) { return known.contains(pair); });
-      join(pairs, progress);
-      for (const auto& pair : pairs) {
-        if (of_endpoint(pair)) known.insert(pair);
-      }
+      std::erase_if(pairs, [&](const auto& pair) { return known.contains(pair) || tried_now.contains(pair); });
+      tried_now.insert(pairs.begin(), pairs.end());
+      if (!settings.cycles) leave_out_joined(pairs);
+      join_known(pairs, progress);
     }
+  }
+
+  void leave_out_joined(Pairs& pairs) {
+    const std::vector<int> component = components(roadmap.edges, samples.size(), roadmap.components);
+    const auto joined = std::ranges::stable_partition(pairs, [&](const auto& pair) {
+      return component[static_cast<std::size_t>(pair.first)] != component[static_cast<std::size_t>(pair.second)];
+    });
+    left_out.insert(left_out.end(), joined.begin(), joined.end());
+    pairs.erase(joined.begin(), joined.end());
+  }
+
+  // Endpoints look for neighbours again later.
+  void join_known(const Pairs& pairs, const Progress& progress) {
+    join(pairs, progress);
+    std::ranges::copy_if(pairs, std::inserter(known, known.end()), [&](const auto& pair) { return of_endpoint(pair); });
   }
 
   void connect(const Progress& progress) {
@@ -269,7 +274,7 @@ struct GrowingRoadmap::State {
     sort_edges();
   }
 
-  void add_cycles(const MotionPath& path, const Progress& progress) {
+  bool add_cycles(const MotionPath& path, const Progress& progress) {
     std::vector<bool> passed(samples.size(), false);
     for (std::size_t i = 0; i < samples.size(); ++i)
       passed[i] = std::ranges::find(path.configurations, samples[i].q) != path.configurations.end();
@@ -283,11 +288,11 @@ struct GrowingRoadmap::State {
     const auto near = std::ranges::partition(left_out, [&](const auto& pair) {
       return !about[static_cast<std::size_t>(pair.first)] || !about[static_cast<std::size_t>(pair.second)];
     });
-    Pairs pairs(near.begin(), near.end());
-    std::ranges::sort(pairs);
-    join(pairs, progress);
+    const std::set<std::pair<int, int>> pairs(near.begin(), near.end());  // those of endpoints may be there repeatedly
+    join_known({pairs.begin(), pairs.end()}, progress);
     left_out.erase(near.begin(), near.end());
     sort_edges();
+    return !pairs.empty();
   }
 
   void sort_edges() {
@@ -313,8 +318,8 @@ void GrowingRoadmap::add(const std::vector<AxisSample>& samples, const Progress&
   if (!state_->samples.empty()) state_->connect(progress);
 }
 
-void GrowingRoadmap::add_cycles(const MotionPath& path, const Progress& progress) {
-  state_->add_cycles(path, progress);
+bool GrowingRoadmap::add_cycles(const MotionPath& path, const Progress& progress) {
+  return state_->add_cycles(path, progress);
 }
 
 Roadmap connected(const Scene& scene, const std::vector<AxisSample>& samples, const Retractor& retract,

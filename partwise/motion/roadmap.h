@@ -58,8 +58,8 @@ class GrowingRoadmap {
   int add_endpoint(const Configuration& q);
   void add(const std::vector<AxisSample>& samples, const Progress& progress = {});
   // Without cycles: the edges that were left out between samples that the path passes and neighbours of these, so that
-  // there is something to choose from.
-  void add_cycles(const MotionPath& path, const Progress& progress = {});
+  // there is something to choose from. False where none was.
+  bool add_cycles(const MotionPath& path, const Progress& progress = {});
 
   const std::vector<AxisSample>& samples() const;  // endpoints among them
   const Roadmap& roadmap() const;                  // of all that was added before the last add()

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <boost/polygon/segment_data.hpp>
 #include <boost/polygon/voronoi.hpp>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "partwise/base/draw.h"
@@ -196,6 +198,36 @@ TEST(Roadmap, HasFreeEdgesAlongTheAxis) {
   EXPECT_GE(pushed.edges.size(), straight.edges.size());
   EXPECT_LE(pushed.components, straight.components);
   EXPECT_GT(least_clearance(pushed), least_clearance(straight));
+}
+
+// Joined are the same samples, by fewer edges; about a path through all of them none stays left out.
+TEST(Roadmap, WithoutCyclesAnEdgeIsLeftOutUntilAPathPasses) {
+  const Town here = town(3, 7);
+  const MarginField field(here.scene->space(), here.contacts);
+  const MarginPush push(*here.scene, field);
+  const std::vector<AxisSample> samples = axis_samples(*here.scene, push, {.count = 300}).samples;
+  const Roadmap whole = connected(*here.scene, samples, push);
+  GrowingRoadmap growing(*here.scene, push, {.cycles = false});
+  const int end = growing.add_endpoint(samples[0].q);
+  for (std::size_t i = 0; i < samples.size(); i += 50) growing.add({samples.begin() + i, samples.begin() + i + 50});
+  EXPECT_EQ(growing.roadmap().components, whole.components);
+  EXPECT_LT(2 * growing.roadmap().edges.size(), whole.edges.size());
+
+  MotionPath path;
+  for (const AxisSample& each : growing.samples()) path.configurations.push_back(each.q);
+  const auto numbers = [&] {
+    std::vector<std::pair<int, int>> pairs;
+    for (const RoadmapEdge& each : growing.roadmap().edges) pairs.emplace_back(each.from, each.to);
+    return pairs;
+  };
+  growing.add_cycles(path);
+  const auto joined = numbers();
+  EXPECT_GT(joined.size(), 9 * whole.edges.size() / 10);
+  EXPECT_TRUE(std::ranges::is_sorted(joined));
+  EXPECT_EQ(std::ranges::adjacent_find(joined), joined.end());  // each pair once, those of the endpoint too
+  EXPECT_TRUE(std::ranges::any_of(joined, [&](const auto& pair) { return pair.first == end; }));
+  growing.add_cycles(path);
+  EXPECT_EQ(numbers(), joined);
 }
 
 }  // namespace
