@@ -188,6 +188,10 @@ TEST(AxisPlanner, GoesOnAfterAStopAndFindsStraightWays) {
   }
   const MotionPath path = stopped.solve({});
   EXPECT_GT(path_clearance(*world.scene, path).minimum, 0);
+  const std::vector<RoadmapEdge>& edges = stopped.roadmap().roadmap().edges;
+  EXPECT_EQ(
+      std::ranges::adjacent_find(edges, {}, [](const RoadmapEdge& each) { return std::pair(each.from, each.to); }),
+      edges.end());
 }
 
 // A wall from side to side: what is drawn stays on the start's side, however far the place is; it goes along the wall.

@@ -288,7 +288,9 @@ struct GrowingRoadmap::State {
     const auto near = std::ranges::partition(left_out, [&](const auto& pair) {
       return !about[static_cast<std::size_t>(pair.first)] || !about[static_cast<std::size_t>(pair.second)];
     });
-    const std::set<std::pair<int, int>> pairs(near.begin(), near.end());  // those of endpoints may be there repeatedly
+    std::set<std::pair<int, int>> pairs(near.begin(), near.end());  // once, those of endpoints too
+    // A stop may have come between an edge and the note that it is there.
+    for (const RoadmapEdge& each : roadmap.edges) pairs.erase({each.from, each.to});
     join_known({pairs.begin(), pairs.end()}, progress);
     left_out.erase(near.begin(), near.end());
     sort_edges();
