@@ -7,6 +7,7 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/PartwiseConfig.cmake.in 
                               INSTALL_DESTINATION ${PARTWISE_INSTALL_CMAKE} NO_SET_AND_CHECK_MACRO)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/PartwiseConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/PartwiseConfig.cmake ${PROJECT_BINARY_DIR}/PartwiseConfigVersion.cmake
+        ${CMAKE_CURRENT_LIST_DIR}/eigen_symbols.map
         DESTINATION ${PARTWISE_INSTALL_CMAKE} COMPONENT dev)
 install(DIRECTORY data DESTINATION ${PARTWISE_INSTALL_SHARE} COMPONENT shared PATTERN "*corpus" EXCLUDE)  # these are for tests only
 install(DIRECTORY models DESTINATION ${PARTWISE_INSTALL_SHARE} COMPONENT shared)

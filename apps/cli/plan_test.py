@@ -3,6 +3,8 @@
 
 import json
 import math
+import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -139,6 +141,24 @@ class Plan(unittest.TestCase):
             self.assertGreater(run["path minimum clearance"], 0.4)
             self.assertGreaterEqual(run["kept minimum clearance"], 0.89 * run["path minimum clearance"])
             self.assertLessEqual(run["kept length"], run["path length"] * (1 + 1e-9))
+
+    # OMPL decomposes a random matrix of its own where positions have three coordinates.
+    @unittest.skipUnless(HAS_OMPL, "built without OMPL")
+    def test_ompl_in_space(self):
+        slabs = [{**rectangle(-4, 2 * i - 2.5, 4, 2 * i - 1.5), "height": 4} for i in range(3)]
+        self.write("space.json", {"space": "se3", "obstacles": slabs, "robot": [{**rectangle(-0.1, -0.1, 0.1, 0.1), "height": 0.2}],
+                                  "bounds": {"low": [-4, -4, -1], "high": [4, 4, 5]},
+                                  "queries": [{"start": [0, -1, 1, 1, 0, 0, 0], "goal": [0, 1, 1, 1, 0, 0, 0]}]})
+        for planner in ("prm", "svma"):
+            self.report("space.json", "--planner", planner, "--runs", 2, "--time", 10, "--log", "space.log")
+            self.assertEqual([run["solved"] for run in read_log((self.folder / "space.log").read_text())[1]], [1, 1])
+
+    # Debian's libraries allocate Eigen's matrices another way than we do: a program must not lend them its functions.
+    @unittest.skipUnless(shutil.which("nm"), "no nm")
+    def test_libraries_keep_their_own_eigen(self):
+        shown = subprocess.run(["nm", "-D", "--defined-only", PROGRAM], capture_output=True, text=True, check=True).stdout
+        self.assertIn(" ", shown)
+        self.assertEqual([line for line in shown.splitlines() if re.search(r" _ZN?[A-Z]*K?5Eigen", line)], [])
 
     @unittest.skipIf(HAS_OMPL, "built with OMPL")
     def test_without_ompl_what_needs_it_says_so(self):
