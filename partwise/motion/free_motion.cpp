@@ -17,6 +17,20 @@ double clearance_of_free(const Scene& scene, const Configuration& q, double room
   return std::max(0.0, std::min(room, scene.nearest(q, 1).front().distance - margin));
 }
 
+bool is_free(const Scene& scene, const Configuration& q) { return scene.within_bounds(q) && scene.free(q); }
+
+// Whether the motion is free at a few places, about as many as it would take balls like those at its ends to cover it:
+// far fewer than distances, should it be free all along.
+bool seems_free(const Scene& scene, const Place& a, const Place& b) {
+  constexpr int most = 15;
+  const double length = scene.space().displacement(a.q, b.q);
+  const int places = static_cast<int>(std::min<double>(most, length / (a.clearance + b.clearance)));
+  for (int i = 1; i <= places; ++i) {
+    if (!is_free(scene, scene.space().between(a.q, b.q, static_cast<double>(i) / (places + 1)))) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 double clearance(const Scene& scene, const Configuration& q, double margin) {
@@ -28,7 +42,7 @@ MotionCheck free_motion(const Scene& scene, const Configuration& a, double clear
                         double clearance_b, double resolution, double margin) {
   const ConfigurationSpace& space = scene.space();
   MotionCheck check;
-  if (clearance_a <= 0 || clearance_b <= 0) return check;
+  if (clearance_a <= 0 || clearance_b <= 0 || !seems_free(scene, {a, clearance_a}, {b, clearance_b})) return check;
   std::vector<std::pair<Place, Place>> open{{{a, clearance_a}, {b, clearance_b}}};  // pieces of one length
   while (true) {
     std::erase_if(open, [&](const auto& piece) {
@@ -40,7 +54,7 @@ MotionCheck free_motion(const Scene& scene, const Configuration& a, double clear
     for (const auto& [from, to] : open) {
       if (space.displacement(from.q, to.q) < resolution) return check;
       middles.push_back(space.between(from.q, to.q, 0.5));
-      if (scene.room(middles.back()) <= 0 || !scene.free(middles.back())) return check;
+      if (!is_free(scene, middles.back())) return check;
     }
     std::vector<std::pair<Place, Place>> halves;
     for (std::size_t i = 0; i < open.size(); ++i) {
