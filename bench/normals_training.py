@@ -28,11 +28,9 @@ LAST = {"steps": 3000, "rates": (3e-4, 2e-5)}
 NETWORKS = {
     "u_start": {"architecture": "u", "steps": 5000, "rates": (1e-3, 3e-4), "terms": STANDALONE},
     "u_standalone": {"architecture": "u", "start": "u_start", "terms": STANDALONE} | LAST,
-    "u_combined": {"architecture": "u", "start": "u_start", "terms": COMBINED} | LAST,
+    "u_combined": {"architecture": "u", "start": "u_start", "terms": COMBINED} | LAST,  # this one ships as objects.pt
     "multi_branch_standalone": {"architecture": "multi_branch", "start": SHIPPED, "terms": STANDALONE} | LAST,
     "multi_branch_combined": {"architecture": "multi_branch", "start": SHIPPED, "terms": COMBINED} | LAST,
-    # What ships: less of the picture, so that normals lose less by it.
-    "objects": {"architecture": "multi_branch", "start": SHIPPED, "terms": {"normal": 1, "pixel": 5}} | LAST,
 }
 
 
