@@ -31,6 +31,7 @@ NETWORKS = {
     "u_combined": {"architecture": "u", "start": "u_start", "terms": COMBINED} | LAST,  # this one ships as objects.pt
     "multi_branch_standalone": {"architecture": "multi_branch", "start": SHIPPED, "terms": STANDALONE} | LAST,
     "multi_branch_combined": {"architecture": "multi_branch", "start": SHIPPED, "terms": COMBINED} | LAST,
+    "multi_branch_quarter": {"architecture": "multi_branch", "start": SHIPPED, "terms": {"normal": 1, "pixel": 5}} | LAST,
 }
 
 

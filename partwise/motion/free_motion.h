@@ -1,8 +1,6 @@
-// Whether a robot may go straight from one configuration to another, by distances: around a free configuration of
-// clearance c, all configurations of a displacement below c are free (configuration_space.h) and within the bounds. So
-// a motion is halved until such balls cover it: nothing is left out between two checks. Collision is decided twenty
-// times as fast as distance among meshes, so it is asked for at a few places before all else, and then at all middles
-// of a turn: a motion that is not free is found out soon.
+// Whether a robot may go straight from one configuration to another, decided by distances alone: around a free
+// configuration of clearance c, all configurations of a displacement below c are free (configuration_space.h) and
+// within the bounds. So a motion is halved until such balls cover it: no sampling, nothing between two checks.
 //
 // Contact within `resolution` cannot be told from collision and counts as such. With a `margin` the robot also stays
 // that far from all obstacles, by the same certificate on distances less the margin.
